@@ -32,7 +32,7 @@ using Ring = std::vector<GridPoint>;
 struct PolygonPart {
   Ring outer;
   std::vector<Ring> holes;
-  bool operator==(const PolygonPart&) const = default;
+  auto operator<=>(const PolygonPart&) const = default;
 };
 
 /// @brief Area on a plane: any number of parts, each with any number of holes.
@@ -45,7 +45,7 @@ struct PolygonPart {
 struct Polygon {
   std::vector<PolygonPart> parts;
   bool empty() const { return parts.empty(); }
-  bool operator==(const Polygon&) const = default;
+  auto operator<=>(const Polygon&) const = default;
 };
 
 /// @brief Area, centroid and second central moments of an area, exact integrals over the polygon.

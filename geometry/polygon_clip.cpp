@@ -1,2 +1,195 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/polygon_clip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <polyclipping/clipper.hpp>
+#include <stdexcept>
+
+#include "geometry/grid_predicates.hpp"
+#include "geometry/ring_contacts.hpp"
+#include "geometry/snap_overlay.hpp"
+
+namespace geomap::geometry {
+namespace {
+
+namespace clipper = ClipperLib;
+
+constexpr int kSliver = 100;         // least area of a part or hole: 1 mm² [grid unit²]
+constexpr double kMitreLimit = 2.5;  // corners sharper than 47° are cut off [offset distances]
+
+// An operation as both engines know it.
+struct Operation {
+  clipper::ClipType type;
+  clipper::PolyFillType fill;
+  InsideRule inside;
+};
+
+constexpr Operation kUnion{clipper::ctUnion, clipper::pftNonZero,
+                           [](int a, int b) { return a != 0 || b != 0; }};
+constexpr Operation kIntersection{clipper::ctIntersection, clipper::pftNonZero,
+                                  [](int a, int b) { return a != 0 && b != 0; }};
+constexpr Operation kDifference{clipper::ctDifference, clipper::pftNonZero,
+                                [](int a, int b) { return a != 0 && b == 0; }};
+constexpr Operation kEvenOddUnion{clipper::ctUnion, clipper::pftEvenOdd,
+                                  [](int a, int) { return a % 2 != 0; }};
+
+clipper::Path to_path(const Ring& ring) {
+  clipper::Path path;
+  path.reserve(ring.size());
+  for (const GridPoint p : ring) path.emplace_back(p.x, p.y);
+  return path;
+}
+
+Ring to_ring(const clipper::Path& path) {
+  Ring ring;
+  ring.reserve(path.size());
+  for (const clipper::IntPoint& p : path) {
+    ring.push_back({static_cast<std::int32_t>(p.X), static_cast<std::int32_t>(p.Y)});
+  }
+  return ring;
+}
+
+void append_rings(const Polygon& polygon, std::vector<Ring>& rings) {
+  for (const Ring* ring : rings_of(polygon)) rings.push_back(*ring);
+}
+
+std::vector<Ring> copied_rings(const Polygon& polygon) {
+  std::vector<Ring> rings;
+  append_rings(polygon, rings);
+  return rings;
+}
+
+// Without parts and holes below 1 mm².
+Polygon without_slivers(Polygon polygon) {
+  const auto net_area = [](const PolygonPart& part) {
+    Int128 sum = twice_area(part.outer);
+    for (const Ring& hole : part.holes) sum += twice_area(hole);
+    return sum;
+  };
+  for (PolygonPart& part : polygon.parts) {
+    std::erase_if(part.holes, [](const Ring& hole) { return -twice_area(hole) < 2 * kSliver; });
+  }
+  std::erase_if(polygon.parts,
+                [&](const PolygonPart& part) { return net_area(part) < 2 * kSliver; });
+  return polygon;
+}
+
+// The clipper's tree of rings as a polygon, or nothing where rings touch themselves or each other:
+// there its rings and their nesting cannot be relied upon, and would not be unique.
+std::optional<Polygon> to_clean_polygon(const clipper::PolyTree& tree) {
+  Polygon polygon;
+  for (const clipper::PolyNode* node = tree.GetFirst(); node != nullptr; node = node->GetNext()) {
+    if (node->IsHole()) continue;
+    PolygonPart part{without_collinear(to_ring(node->Contour)), {}};
+    for (const clipper::PolyNode* child : node->Childs) {
+      Ring hole = without_collinear(to_ring(child->Contour));
+      if (!hole.empty()) part.holes.push_back(std::move(hole));
+    }
+    if (!part.outer.empty()) polygon.parts.push_back(std::move(part));
+  }
+  polygon = without_slivers(std::move(polygon));
+  if (!find_contacts(rings_of(polygon)).none() || !find_fault(polygon).empty()) return {};
+  return canonical(std::move(polygon));
+}
+
+std::optional<Polygon> by_clipper(std::span<const Ring> a, std::span<const Ring> b,
+                                  const Operation& operation) {
+  clipper::Clipper engine(clipper::ioStrictlySimple);
+  // AddPath refuses rings without area: they add nothing.
+  for (const Ring& ring : a) engine.AddPath(to_path(ring), clipper::ptSubject, true);
+  for (const Ring& ring : b) engine.AddPath(to_path(ring), clipper::ptClip, true);
+  clipper::PolyTree tree;
+  try {
+    if (!engine.Execute(operation.type, tree, operation.fill, operation.fill)) return {};
+  } catch (const clipper::clipperException&) {
+    return {};
+  }
+  return to_clean_polygon(tree);
+}
+
+Polygon clip(std::span<const Ring> a, std::span<const Ring> b, const Operation& operation) {
+  if (std::optional<Polygon> result = by_clipper(a, b, operation)) return *std::move(result);
+  return without_slivers(snap_overlay(a, b, operation.inside));
+}
+
+bool boxes_apart(const Polygon& a, const Polygon& b) {
+  const Eigen::AlignedBox2d box_a = bounding_box(a), box_b = bounding_box(b);
+  return (box_a.min().array() > box_b.max().array()).any() ||
+         (box_b.min().array() > box_a.max().array()).any();
+}
+
+// Throws where a grown polygon would leave the grid.
+void check_offset(const Polygon& polygon, double units) {
+  constexpr double kLargest = std::numeric_limits<std::int32_t>::max();
+  if (!std::isfinite(units)) throw std::invalid_argument("polygon offset is not finite");
+  const double reach = std::max(units, 0.0) * kMitreLimit + 1.0;
+  const Eigen::AlignedBox2d box = bounding_box(polygon);
+  const double farthest =
+      std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  if (farthest / kGridUnit + reach > kLargest) {
+    throw std::invalid_argument("polygon offset leaves the grid");
+  }
+}
+
+}  // namespace
+
+Polygon from_rings(std::span<const Ring> rings, FillRule rule) {
+  return clip(rings, {}, rule == FillRule::kEvenOdd ? kEvenOddUnion : kUnion);
+}
+
+Polygon unite(const Polygon& a, const Polygon& b) {
+  if (a.empty()) return canonical(b);
+  if (b.empty() || a == b) return canonical(a);
+  if (boxes_apart(a, b)) {
+    Polygon both = a;
+    both.parts.insert(both.parts.end(), b.parts.begin(), b.parts.end());
+    return canonical(std::move(both));
+  }
+  std::vector<Ring> rings = copied_rings(a);
+  append_rings(b, rings);
+  std::sort(rings.begin(), rings.end());  // the operands' order must not matter
+  return clip(rings, {}, kUnion);
+}
+
+Polygon unite(std::span<const Polygon> polygons) {
+  std::vector<Ring> rings;
+  for (const Polygon& polygon : polygons) append_rings(polygon, rings);
+  std::sort(rings.begin(), rings.end());
+  return clip(rings, {}, kUnion);
+}
+
+Polygon intersect(const Polygon& a, const Polygon& b) {
+  if (a.empty() || b.empty() || boxes_apart(a, b)) return {};
+  if (a == b) return canonical(a);
+  const bool ordered = a < b;  // the operands' order must not matter
+  return clip(copied_rings(ordered ? a : b), copied_rings(ordered ? b : a), kIntersection);
+}
+
+Polygon subtract(const Polygon& a, const Polygon& b) {
+  if (a.empty() || a == b) return {};
+  if (b.empty() || boxes_apart(a, b)) return canonical(a);
+  return clip(copied_rings(a), copied_rings(b), kDifference);
+}
+
+Polygon offset(const Polygon& polygon, double distance) {
+  const double units = distance / kGridUnit;
+  if (polygon.empty()) return {};
+  check_offset(polygon, units);
+  clipper::ClipperOffset engine(kMitreLimit);
+  for (const Ring* ring : rings_of(polygon)) {
+    engine.AddPath(to_path(*ring), clipper::jtMiter, clipper::etClosedPolygon);
+  }
+  clipper::PolyTree tree;
+  engine.Execute(tree, units);
+  if (std::optional<Polygon> result = to_clean_polygon(tree)) return *std::move(result);
+  std::vector<Ring> rings;
+  for (const clipper::PolyNode* node = tree.GetFirst(); node != nullptr; node = node->GetNext()) {
+    rings.push_back(to_ring(node->Contour));
+  }
+  return without_slivers(snap_overlay(rings, {}, kEvenOddUnion.inside));
+}
+
+}  // namespace geomap::geometry

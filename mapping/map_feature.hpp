@@ -19,8 +19,8 @@ struct ObservationId {
   auto operator<=>(const ObservationId&) const = default;
 };
 
-/// @brief A feature is named after its oldest observation, so its id does not depend on what else the
-/// camera saw. When features merge, the smallest id stays.
+/// @brief A feature is named after its oldest observation, so its id does not depend on what else
+/// the camera saw. When features merge, the smallest id stays.
 using FeatureId = ObservationId;
 
 /// @brief "KEYFRAME-PLANE", for example "1000000000033333-2".

@@ -45,7 +45,8 @@ geometry::CameraModel kinect_camera(int divisor = 1);
 Eigen::Isometry3d look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
                           const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
 
-/// @brief Closed-form rendering of rectangles: the nearest hit of each pixel's ray, in 0.3 m to 10 m.
+/// @brief Closed-form rendering of rectangles: the nearest hit of each pixel's ray, in 0.3 m to 10
+/// m.
 /// @param sigma white noise on depth [m], seeded; 0 for exact readings rounded to 1 mm.
 Rendering render(const std::vector<Rectangle>& scene, const geometry::CameraModel& camera,
                  const Eigen::Isometry3d& T_world_camera, double sigma = 0.0,

@@ -13,7 +13,7 @@ std::optional<std::filesystem::path> recording(const std::string& name);
 }  // namespace geomap::testing
 
 /// Skips the current test, with the reason printed, where a recording is missing.
-#define GEOMAP_REQUIRE_RECORDING(variable, name)                                           \
-  const auto variable##_found = ::geomap::testing::recording(name);                        \
+#define GEOMAP_REQUIRE_RECORDING(variable, name)                                              \
+  const auto variable##_found = ::geomap::testing::recording(name);                           \
   if (!variable##_found) GTEST_SKIP() << "no recording '" << (name) << "' under GEOMAP_DATA"; \
   const std::filesystem::path variable = *variable##_found

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <future>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geomap/rgbd_frame_t.hpp"
+#include "logs/pipeline_config.hpp"
+#include "logs/stage_times.hpp"
+#include "mapping/geometric_map.hpp"
+#include "perception/keyframe_selector.hpp"
+#include "perception/plane_extractor.hpp"
+#include "perception/point_map.hpp"
+#include "perception/pose_prior.hpp"
+#include "perception/registration.hpp"
+
+namespace geomap::logs {
+
+/// @brief One key frame that entered the map.
+struct KeyframeRecord {
+  std::int64_t id = 0;  // utime [us]
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  std::int64_t pixels = 0;    // of its depth image
+  int planes = 0;             // extracted
+  int map_features = 0;       // in the map after it
+  double noise_factor = 1.0;  // of the depth noise model
+  StageTimes times;
+};
+
+/// @brief Camera pose of a tracked frame, T_world_camera.
+using TimedPose = std::pair<std::int64_t, Eigen::Isometry3d>;
+
+/// @brief The whole system in one process: the very classes that the separate processes drive, fed
+/// with decoded messages in the order of a log. Its state is a function of those alone; threads
+/// only extract the planes of several key frames at once, which are merged in the order of the key
+/// frames.
+class Pipeline {
+ public:
+  /// @brief Called after each key frame has been merged, in the caller's thread.
+  using KeyframeListener = std::function<void(const KeyframeRecord&, const mapping::Observation&,
+                                              const mapping::MapChange&)>;
+
+  /// @param threads at least 1; beyond 1, that many key frames are extracted at the same time.
+  /// @throws std::invalid_argument when a setting is not valid.
+  Pipeline(const PipelineConfig& config, int threads);
+
+  void on_keyframe(KeyframeListener listener) { listener_ = std::move(listener); }
+
+  void add_pose(std::int64_t utime, const Eigen::Isometry3d& T_odom_body);
+  void add_camera_to_body(std::int64_t utime, const Eigen::Isometry3d& T_body_camera);
+  void add_frame(geomap::rgbd_frame_t message);
+  /// @brief Processes what still waits for a prior or an extraction. Call at the end of the input.
+  void finish();
+
+  std::int64_t frames() const { return frames_; }
+  const std::vector<KeyframeRecord>& keyframes() const { return keyframes_; }
+  /// @brief Frames that could not become key frames, by reason.
+  const std::map<std::string, std::int64_t>& rejected() const { return rejected_; }
+  const std::vector<TimedPose>& tracked() const { return tracked_; }
+  const mapping::GeometricMap& map() const { return map_; }
+  const perception::PointMap& point_map() const { return point_map_; }
+  const perception::PosePrior& prior() const { return prior_; }
+
+ private:
+  struct Extraction {
+    KeyframeRecord record;
+    std::future<perception::ExtractedPlanes> planes;
+  };
+
+  void process_ready();
+  void process(const geomap::rgbd_frame_t& message);
+  void start_extraction(KeyframeRecord record, geometry::RgbdFrame frame);
+  void merge_oldest();
+
+  PipelineConfig config_;
+  std::size_t threads_;
+  perception::PosePrior prior_;
+  perception::KeyframeSelector selector_;
+  std::unique_ptr<perception::Registration> registration_;
+  std::unique_ptr<perception::PlaneExtractor> extractor_;
+  perception::PointMap point_map_;
+  mapping::GeometricMap map_;
+
+  std::deque<geomap::rgbd_frame_t> waiting_;  // for their prior
+  std::deque<Extraction> extractions_;        // in the order of the key frames
+  KeyframeListener listener_;
+
+  std::int64_t frames_ = 0;
+  std::set<std::int64_t> accepted_;  // ids of key frames, merged or under way
+  std::vector<KeyframeRecord> keyframes_;
+  std::map<std::string, std::int64_t> rejected_;
+  std::vector<TimedPose> tracked_;
+};
+
+}  // namespace geomap::logs

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "logs/pipeline_config.hpp"
+
+namespace geomap::logs {
+
+PipelineConfig read_pipeline_config(const messaging::Config& config) {
+  return {config.read<perception::PriorConfig>("prior"),
+          config.read<perception::KeyframeConfig>("keyframes"),
+          config.read<perception::TrustPriorConfig>("registration"),
+          config.read<perception::PointMapConfig>("point_map"),
+          config.read<perception::RansacExtractorConfig>("ransac"),
+          config.read<mapping::MergeConfig>("merge"),
+          config.read<mapping::HistoryConfig>("history")};
+}
+
+}  // namespace geomap::logs

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mapping/geometric_map.hpp"
+#include "mapping/merge_config.hpp"
+#include "messaging/config.hpp"
+#include "perception/keyframe_selector.hpp"
+#include "perception/point_map.hpp"
+#include "perception/pose_prior.hpp"
+#include "perception/ransac_extractor.hpp"
+#include "perception/trust_prior.hpp"
+
+namespace geomap::logs {
+
+/// @brief The settings of every stage. One member per section of config/default.yaml.
+struct PipelineConfig {
+  perception::PriorConfig prior;
+  perception::KeyframeConfig keyframes;
+  perception::TrustPriorConfig registration;
+  perception::PointMapConfig point_map;
+  perception::RansacExtractorConfig ransac;
+  mapping::MergeConfig merge;
+  mapping::HistoryConfig history;
+};
+
+/// @brief All sections, validated. @throws messaging::ConfigError.
+PipelineConfig read_pipeline_config(const messaging::Config& config);
+
+}  // namespace geomap::logs

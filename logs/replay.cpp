@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "logs/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/polygon.hpp"
+#include "logs/git_revision.hpp"
+#include "logs/growth_pictures.hpp"
+#include "logs/log_input.hpp"
+#include "logs/trajectory_file.hpp"
+#include "mapping/export_file.hpp"
+#include "mapping/export_svg.hpp"
+#include "mapping/map_journal.hpp"
+#include "messaging/channels.hpp"
+#include "messaging/convert_geometry.hpp"
+#include "messaging/log_writer.hpp"
+#include "messaging/program.hpp"
+#include "messaging/progress_bar.hpp"
+#include "perception/point_map_ply.hpp"
+
+namespace geomap::logs {
+namespace {
+
+namespace channels = messaging::channels;
+
+constexpr std::int64_t kRawBytesPerPixel = 12;  // as the paper counts: three floats a point
+constexpr std::int64_t kBytesPerPoint = 12;
+constexpr std::int64_t kBytesPerPolygon = 16;  // four plane coefficients
+
+// One reading of the log from front to back.
+struct Pass {
+  Pass(const PipelineConfig& config, int threads) : pipeline(config, threads), input(pipeline) {}
+
+  Pipeline pipeline;
+  LogInput input;
+  bool log_damaged = false;
+  bool stopped = false;
+  double seconds = 0.0;
+};
+
+void run(Pass& pass, const std::string& log) {
+  const Stopwatch stopwatch;
+  messaging::LogReader reader(log);
+  messaging::ProgressBar progress("frames", 0);
+  while (const auto event = reader.next()) {
+    pass.input.handle(*event);
+    progress.update(pass.pipeline.frames(),
+                    pass.pipeline.frames() * reader.size() / reader.position());
+    if (messaging::stop_requested()) {
+      pass.stopped = true;
+      break;
+    }
+  }
+  pass.pipeline.finish();
+  pass.log_damaged = !reader.damages().empty();
+  pass.seconds = stopwatch.seconds();
+}
+
+// Writes what extraction publishes, as a log that the separate mapper can be fed with.
+class DerivedLog {
+ public:
+  explicit DerivedLog(const std::string& path) {
+    if (!path.empty()) writer_.emplace(path);
+  }
+  void write(const KeyframeRecord& record, const mapping::Observation& observation) {
+    if (!writer_) return;
+    if (!session_) session_ = record.id;
+    writer_->write(channels::kCameraPose, record.id,
+                   messaging::to_rigid_transform(record.id, record.T_world_camera));
+    const messaging::PlaneSet planes{record.id, *session_, record.T_world_camera,
+                                     record.noise_factor, observation.planes};
+    writer_->write(channels::kPlanes, record.id, messaging::to_message(planes));
+  }
+  void close() {
+    if (writer_) writer_->close();
+  }
+
+ private:
+  std::optional<messaging::LogWriter> writer_;
+  std::optional<std::int64_t> session_;
+};
+
+DataReduction reduction_of(const Pipeline& pipeline, const std::filesystem::path& map_file) {
+  DataReduction reduction;
+  for (const KeyframeRecord& keyframe : pipeline.keyframes()) {
+    reduction.raw_bytes += kRawBytesPerPixel * keyframe.pixels;
+  }
+  reduction.point_map_points = static_cast<std::int64_t>(pipeline.point_map().size());
+  reduction.point_map_bytes = kBytesPerPoint * reduction.point_map_points;
+  for (const auto& [id, feature] : pipeline.map().features()) {
+    reduction.map_vertices +=
+        static_cast<std::int64_t>(geometry::vertex_count(feature->surface.polygon));
+    reduction.map_bytes += kBytesPerPolygon;
+  }
+  reduction.map_bytes += kBytesPerPoint * reduction.map_vertices;
+  reduction.map_bytes_serialised = static_cast<std::int64_t>(std::filesystem::file_size(map_file));
+  return reduction;
+}
+
+std::vector<TimedPose> keyframe_poses(const Pipeline& pipeline) {
+  std::vector<TimedPose> poses;
+  for (const KeyframeRecord& keyframe : pipeline.keyframes()) {
+    poses.emplace_back(keyframe.id, keyframe.T_world_camera);
+  }
+  return poses;
+}
+
+void write_results(const Pipeline& pipeline, const mapping::MapSnapshot& map,
+                   const std::filesystem::path& folder) {
+  mapping::save_map(folder / "map.lcmlog", pipeline.map());
+  mapping::write_file(folder / "map.svg", mapping::to_svg(map));
+  perception::write_ply(folder / "point_map.ply", pipeline.point_map().points());
+  write_trajectory(folder / "trajectory.tum", keyframe_poses(pipeline));
+  write_trajectory(folder / "trajectory_all.tum", pipeline.tracked());
+}
+
+void append_times(const Pipeline& pipeline, std::vector<StageTimes>& times) {
+  for (const KeyframeRecord& keyframe : pipeline.keyframes()) times.push_back(keyframe.times);
+}
+
+}  // namespace
+
+ReplayResult replay(const ReplayOptions& options, const messaging::Config& config) {
+  const PipelineConfig settings = read_pipeline_config(config);
+  std::filesystem::create_directories(options.output);
+  mapping::write_file(options.output / "config_used.yaml", config.to_yaml());
+
+  Pass first(settings, options.threads);
+  DerivedLog derived(options.log_out);
+  GrowthPictures pictures(options.pictures_every);
+  first.pipeline.on_keyframe([&](const KeyframeRecord& record,
+                                 const mapping::Observation& observation,
+                                 const mapping::MapChange& change) {
+    derived.write(record, observation);
+    pictures.note(first.pipeline.map(), change);
+  });
+  run(first, options.log);
+  derived.close();
+  const Pipeline& pipeline = first.pipeline;
+  if (pipeline.frames() == 0) {
+    throw std::runtime_error(options.log + " holds no readable " + channels::kRgbdFrame);
+  }
+
+  ReplayResult result;
+  Report& report = result.report;
+  result.stopped = first.stopped;
+  report.map = mapping::snapshot_of(pipeline.map());
+  report.wall_seconds = first.seconds;
+  append_times(pipeline, report.times);
+  for (int pass = 1; pass < options.passes && !result.stopped; ++pass) {
+    Pass again(settings, options.threads);
+    run(again, options.log);
+    result.stopped = again.stopped;
+    append_times(again.pipeline, report.times);
+    if (!again.stopped && mapping::snapshot_of(again.pipeline.map()).hash != report.map.hash) {
+      throw std::runtime_error(fmt::format("pass {} over the log gave another map", pass + 1));
+    }
+  }
+
+  write_results(pipeline, report.map, options.output);
+  pictures.write(options.output / "pictures");
+  report.log = options.log;
+  report.extractor = "ransac";
+  report.merge_mode = settings.merge.mode;
+  report.git_revision = kGitRevision;
+  report.config_hash = config.hash();
+  report.frames = pipeline.frames();
+  report.rejected = pipeline.rejected();
+  report.refused = first.input.refused();
+  report.sequence_gaps = first.input.sequence_gaps();
+  report.log_damaged = first.log_damaged;
+  report.keyframes = pipeline.keyframes();
+  report.reduction = reduction_of(pipeline, options.output / "map.lcmlog");
+  write_report(report, options.output);
+  return result;
+}
+
+}  // namespace geomap::logs

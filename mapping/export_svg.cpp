@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/export_svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "mapping/export_svg_canvas.hpp"
+#include "mapping/export_svg_panel.hpp"
+#include "mapping/export_svg_style.hpp"
+
+namespace geomap::mapping {
+namespace {
+
+// All in pixels.
+constexpr double kMargin = 32.0;
+constexpr double kTitleHeight = 66.0;
+constexpr double kFooterGap = 30.0;
+constexpr double kFooterRow = 26.0;
+constexpr double kGap = 34.0;  // between panels
+constexpr double kTitleSize = 20.0;
+constexpr double kSubtitleSize = 13.0;
+constexpr double kLegendSize = 12.0;
+constexpr double kLongestScaleBar = 170.0;
+constexpr double kSmallestBox = 0.05;  // [m], keeps the scale of a tiny map in bounds
+
+using Columns = std::vector<std::vector<std::size_t>>;  // indices of panels, top down
+
+std::string counts_text(const MapSnapshot& map) {
+  std::size_t vertices = 0;
+  double area = 0.0;
+  for (const MapFeature* feature : sorted_by_id(map.features)) {
+    vertices += geometry::vertex_count(feature->surface.polygon);
+    area += geometry::area(feature->surface.polygon);
+  }
+  return fmt::format("{} feature{} · {} vertices · {:.2f} m²", map.features.size(),
+                     map.features.size() == 1 ? "" : "s", vertices, area);
+}
+
+Eigen::AlignedBox2d view_box(const SvgPanel& panel,
+                             const std::optional<Eigen::AlignedBox3d>& extent) {
+  Eigen::AlignedBox2d box;
+  for (const ProjectedFeature& feature : panel.features) box.extend(feature.box);
+  if (extent.has_value() && !extent->isEmpty()) {
+    for (int corner = 0; corner < 8; ++corner) {
+      box.extend(
+          panel.axes.project(extent->corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner))));
+    }
+  }
+  const Eigen::Vector2d half = box.sizes().cwiseMax(kSmallestBox) / 2.0;
+  return {box.center() - half, box.center() + half};
+}
+
+std::vector<SvgPanel> make_panels(const MapSnapshot& map, const SvgOptions& options,
+                                  double heading) {
+  const double turn = options.turn.value_or(oblique_turn(map.features, heading));
+  std::vector<SvgPanel> panels;
+  for (const SvgView view : options.views) {
+    SvgPanel& panel = panels.emplace_back();
+    panel.view = view;
+    panel.axes = view_axes(view, heading, turn);
+    panel.features = project_features(map.features, panel.axes);
+    panel.box = view_box(panel, options.extent);
+  }
+  return panels;
+}
+
+// The arrangements tried: the oblique views beside the others, all in one column, all in one row.
+std::vector<Columns> arrangements(const std::vector<SvgPanel>& panels) {
+  Columns beside(2);
+  Columns column(1);
+  Columns row;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    beside[panels[i].view == SvgView::kOblique ? 1 : 0].push_back(i);
+    column[0].push_back(i);
+    row.push_back({i});
+  }
+  std::erase_if(beside, [](const auto& panels_of_column) { return panels_of_column.empty(); });
+  return {beside, column, row};
+}
+
+// Largest common scale [px/m] at which the arrangement keeps to the wanted size.
+double fitting_scale(const std::vector<SvgPanel>& panels, const Columns& columns,
+                     const SvgOptions& options) {
+  double fixed_width = -kGap;
+  double width = 0.0;
+  double scale = std::numeric_limits<double>::max();
+  for (const auto& column : columns) {
+    double fixed_height = -kGap;
+    double height = 0.0;
+    double widest = 0.0;
+    for (const std::size_t i : column) {
+      fixed_height += kPanelCaption + kGap;
+      height += panels[i].box.sizes().y();
+      widest = std::max(widest, panels[i].box.sizes().x());
+    }
+    fixed_width += kPanelGutter + kGap;
+    width += widest;
+    scale = std::min(scale, std::max(options.max_height - fixed_height, 1.0) / height);
+  }
+  return std::min(scale, std::max(options.max_width - fixed_width, 1.0) / width);
+}
+
+// Places the panels and returns the size they take [px].
+Eigen::Vector2d arrange(std::vector<SvgPanel>& panels, const SvgOptions& options) {
+  Columns best;
+  double scale = 0.0;
+  for (const Columns& columns : arrangements(panels)) {
+    const double fitting = fitting_scale(panels, columns, options);
+    if (fitting <= scale) continue;
+    scale = fitting;
+    best = columns;
+  }
+  Eigen::Vector2d corner(kMargin, kMargin + kTitleHeight);
+  Eigen::Vector2d size = Eigen::Vector2d::Zero();
+  for (const auto& column : best) {
+    double widest = 0.0;
+    Eigen::Vector2d next = corner;
+    for (const std::size_t i : column) {
+      panels[i].scale = scale;
+      panels[i].corner = next;
+      next.y() += panels[i].size().y() + kGap;
+      widest = std::max(widest, panels[i].size().x());
+    }
+    corner.x() += widest + kGap;
+    size = size.cwiseMax(Eigen::Vector2d(corner.x(), next.y()) -
+                         Eigen::Vector2d(kMargin + kGap, kMargin + kTitleHeight + kGap));
+  }
+  return size;
+}
+
+// The largest of 1, 2, 5 times a power of ten [m] that is drawn no longer than the limit.
+double round_length(double scale) {
+  const double longest = kLongestScaleBar / scale;
+  const double power = std::pow(10.0, std::floor(std::log10(longest)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= longest) return digit * power;
+  }
+  return power;
+}
+
+void draw_scale_bar(SvgCanvas& canvas, const Eigen::Vector2d& at, double scale) {
+  const double length = round_length(scale);
+  const Eigen::Vector2d end = at + Eigen::Vector2d(length * scale, 0.0);
+  const Eigen::Vector2d tick(0.0, 5.0);
+  const std::string_view ink = "#1f2933";
+  canvas.line(at, end, ink, 1.6);
+  canvas.line(at - tick, at + tick, ink, 1.6);
+  canvas.line(end - tick, end + tick, ink, 1.6);
+  const std::string text = length >= 1.0    ? fmt::format("{:.0f} m", length)
+                           : length >= 0.01 ? fmt::format("{:.0f} cm", 100.0 * length)
+                                            : fmt::format("{:.0f} mm", 1000.0 * length);
+  canvas.text(end + Eigen::Vector2d(10.0, 4.0), text, {.size = kLegendSize});
+}
+
+struct LegendEntry {
+  std::array<Rgb, 2> colors;  // left and right half of the swatch
+  std::string text;
+  double opacity = 1.0;
+  double width() const { return 38.0 + text_width(text, kLegendSize); }
+};
+
+std::vector<LegendEntry> legend_of(const MapSnapshot& map, const std::vector<SvgPanel>& panels) {
+  std::set<Orientation> present;
+  for (const MapFeature& feature : map.features) present.insert(orientation_of(feature));
+  std::vector<LegendEntry> entries;
+  for (const Orientation orientation : kOrientations) {
+    if (!present.contains(orientation)) continue;
+    entries.push_back(
+        {orientation_colors(orientation), std::string(orientation_name(orientation))});
+  }
+  const bool any_behind = std::any_of(panels.begin(), panels.end(), [](const SvgPanel& panel) {
+    return std::any_of(panel.features.begin(), panel.features.end(), is_seen_from_behind);
+  });
+  const Rgb grey = {123, 135, 148};
+  if (any_behind) entries.push_back({{grey, grey}, "pale: seen from behind", 0.12});
+  return entries;
+}
+
+double legend_width(const std::vector<LegendEntry>& entries) {
+  double width = 0.0;
+  for (const LegendEntry& entry : entries) width += entry.width();
+  return width;
+}
+
+void draw_legend(SvgCanvas& canvas, Eigen::Vector2d at, const std::vector<LegendEntry>& entries) {
+  for (const LegendEntry& entry : entries) {
+    const Eigen::Vector2d corner = at - Eigen::Vector2d(0.0, 6.0);
+    for (std::size_t half = 0; half < 2; ++half) {
+      canvas.rectangle(corner + Eigen::Vector2d(9.0 * static_cast<double>(half), 0.0), {9.0, 12.0},
+                       {.fill = to_hex(entry.colors[half]), .fill_opacity = entry.opacity});
+    }
+    canvas.rectangle(corner, {18.0, 12.0},
+                     {.stroke = to_hex(outline_color(entry.colors[0])), .stroke_width = 0.8});
+    canvas.text(at + Eigen::Vector2d(24.0, 4.0), entry.text, {.size = kLegendSize});
+    at.x() += entry.width();
+  }
+}
+
+void draw_title(SvgCanvas& canvas, const std::string& title, const std::string& subtitle) {
+  canvas.text({kMargin, kMargin + 18.0}, title, {.size = kTitleSize, .bold = true});
+  canvas.text({kMargin, kMargin + 40.0}, subtitle, {.size = kSubtitleSize, .color = "#52606d"});
+}
+
+std::string empty_sheet(const std::string& title, const std::string& subtitle) {
+  SvgCanvas canvas;
+  draw_title(canvas, title, subtitle);
+  canvas.text({280.0, 150.0}, "empty map",
+              {.size = 16.0, .color = "#7b8794", .anchor = TextAnchor::kMiddle});
+  return canvas.finish({560.0, 220.0}, title);
+}
+
+}  // namespace
+
+std::string to_svg(const MapSnapshot& map, const SvgOptions& options) {
+  if (options.views.empty()) throw std::invalid_argument("to_svg: no views");
+  if (!(options.max_width > 0.0) || !(options.max_height > 0.0)) {
+    throw std::invalid_argument("to_svg: the size is not positive");
+  }
+  const std::string title = clean_text(options.title);
+  const std::string subtitle = fmt::format("revision {} · {}", map.revision, counts_text(map));
+  const double heading = options.heading.value_or(front_heading(map.features));
+  std::vector<SvgPanel> panels = make_panels(map, options, heading);
+  if (panels.front().features.empty()) return empty_sheet(title, subtitle);
+
+  const Eigen::Vector2d drawings = arrange(panels, options);
+  const double scale = panels.front().scale;
+  const std::vector<LegendEntry> legend = legend_of(map, panels);
+  const double bar_width = round_length(scale) * scale + 70.0;
+  const bool one_row = bar_width + legend_width(legend) <= drawings.x();
+  const double inner_width =
+      std::max({drawings.x(), text_width(title, kTitleSize), text_width(subtitle, kSubtitleSize),
+                legend_width(legend), bar_width});
+
+  SvgCanvas canvas;
+  draw_title(canvas, title, subtitle);
+  PanelStyle style{
+      .heading = heading, .labels = options.labels, .highlighted = options.highlighted};
+  std::sort(style.highlighted.begin(), style.highlighted.end());
+  for (const SvgPanel& panel : panels) draw_panel(canvas, panel, style);
+  const double footer = kMargin + kTitleHeight + drawings.y() + kFooterGap;
+  draw_scale_bar(canvas, {kMargin, footer}, scale);
+  const Eigen::Vector2d legend_at(one_row ? kMargin + bar_width : kMargin,
+                                  one_row ? footer : footer + kFooterRow);
+  draw_legend(canvas, legend_at, legend);
+  return canvas.finish({inner_width + 2.0 * kMargin, legend_at.y() + kMargin}, title);
+}
+
+}  // namespace geomap::mapping

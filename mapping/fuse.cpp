@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/fuse.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "geometry/polygon_clip.hpp"
+#include "geometry/polygon_simplify.hpp"
+
+namespace geomap::mapping {
+namespace {
+
+using geometry::GridPoint;
+using geometry::PlaneFrame;
+using geometry::Polygon;
+
+std::vector<GridPoint> sorted_vertices(const Polygon& polygon) {
+  std::vector<GridPoint> vertices;
+  for (const geometry::PolygonPart& part : polygon.parts) {
+    vertices.insert(vertices.end(), part.outer.begin(), part.outer.end());
+    for (const geometry::Ring& hole : part.holes) {
+      vertices.insert(vertices.end(), hole.begin(), hole.end());
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+}  // namespace
+
+std::optional<MapFeature> feature_of(const Observation& observation, std::int32_t plane_number,
+                                     const MergeConfig& config) {
+  const geometry::PlaneObservation& seen =
+      observation.planes[static_cast<std::size_t>(plane_number)];
+  const Eigen::Vector3d ray = seen.moments.centroid().normalized();
+  if (std::abs(seen.surface.plane.normal.dot(ray)) < config.min_view_cosine) return std::nullopt;
+
+  MapFeature feature;
+  feature.id = {observation.keyframe, plane_number};
+  feature.observations = {feature.id};
+  feature.surface = seen.surface.transformed(observation.T_world_camera);
+  feature.moments = seen.moments.transformed(seen.surface.frame.T_plane_parent())
+                        .capped(1.0 / (config.sigma_pose * config.sigma_pose));
+  feature.inliers = seen.inliers;
+  feature.color = seen.color;
+  if (!feature.moments.fit(Eigen::Vector3d::UnitZ())) return std::nullopt;
+  refit(feature);
+  return feature;
+}
+
+void add_evidence(MapFeature& feature, const MapFeature& other) {
+  const Eigen::Isometry3d T_feature_other =
+      feature.surface.frame.T_plane_parent() * other.surface.frame.T_parent_plane();
+  feature.moments += other.moments.transformed(T_feature_other);
+
+  std::vector<ObservationId> all;
+  std::merge(feature.observations.begin(), feature.observations.end(), other.observations.begin(),
+             other.observations.end(), std::back_inserter(all));
+  feature.observations = std::move(all);
+  feature.id = feature.observations.front();
+
+  const double total = static_cast<double>(feature.inliers + other.inliers);
+  const double share = static_cast<double>(other.inliers) / total;
+  for (std::size_t i = 0; i < feature.color.size(); ++i) {
+    feature.color[i] += share * (other.color[i] - feature.color[i]);
+  }
+  feature.inliers += other.inliers;
+}
+
+void refit(MapFeature& feature) {
+  const auto fit = feature.moments.fit(Eigen::Vector3d::UnitZ());
+  if (!fit) return;
+  feature.surface.plane = fit->plane.transformed(feature.surface.frame.T_parent_plane());
+  feature.rms = fit->rms;
+  feature.sigma_angle = fit->sigma_angle();
+  feature.sigma_d = fit->sigma_offset(fit->centroid);
+}
+
+void rebase_where_needed(MapFeature& feature, double angle_limit) {
+  geometry::PlanarPolygon& surface = feature.surface;
+  const bool turned = geometry::angle_between(surface.plane, surface.frame.plane()) > angle_limit;
+  const Eigen::AlignedBox2d box = geometry::bounding_box(surface.polygon);
+  if (!turned && box.contains(Eigen::Vector2d::Zero())) return;
+
+  const Eigen::Vector3d near = surface.lift(Eigen::Vector2d(box.center()));
+  const PlaneFrame frame =
+      PlaneFrame::on(surface.plane, near, surface.frame.x_axis, surface.frame.y_axis());
+  feature.moments =
+      feature.moments.transformed(frame.T_plane_parent() * surface.frame.T_parent_plane());
+  surface.polygon = surface.in_frame(frame);
+  surface.frame = frame;
+}
+
+Polygon united_outline(const Polygon& old_outline, const Polygon& added, double tolerance) {
+  const Polygon beyond = geometry::subtract(added, geometry::offset(old_outline, tolerance));
+  if (beyond.empty()) return old_outline;
+  // `beyond` lies a tolerance away from the old outline: grown by two, it overlaps it.
+  const Polygon extension = geometry::intersect(added, geometry::offset(beyond, 2.0 * tolerance));
+  const Polygon both = geometry::unite(old_outline, extension);
+  const std::vector<GridPoint> old_vertices = sorted_vertices(old_outline);
+  return geometry::simplify(both, tolerance, [&](GridPoint vertex) {
+    return std::binary_search(old_vertices.begin(), old_vertices.end(), vertex);
+  });
+}
+
+}  // namespace geomap::mapping

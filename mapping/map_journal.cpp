@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/map_journal.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "geomap/map_state_t.hpp"
+#include "mapping/map_hash.hpp"
+#include "mapping/map_messages.hpp"
+#include "messaging/channels.hpp"
+#include "messaging/config.hpp"
+#include "messaging/log_reader.hpp"
+#include "messaging/log_writer.hpp"
+#include "messaging/safe_decode.hpp"
+
+namespace geomap::mapping {
+namespace {
+
+namespace channels = messaging::channels;
+
+// A section of YAML that reads back to the same numbers.
+template <class Settings>
+std::string to_yaml(const std::string& section, const Settings& settings) {
+  std::string text = section + ":\n";
+  Settings::visit(settings, [&](const char* name, const auto& value) {
+    text += fmt::format("  {}: {}\n", name, value);
+  });
+  return text;
+}
+
+std::string to_yaml(const MergeConfig& merge, const HistoryConfig& history) {
+  return to_yaml("merge", merge) + to_yaml("history", history);
+}
+
+geomap::map_state_t state_of(const SavedMap& saved) {
+  geomap::map_state_t state{};
+  state.revision = saved.revision;
+  state.config = to_yaml(saved.merge, saved.history);
+  state.hash = map_hash(saved.features);
+  for (const auto& [id, feature] : saved.features) {
+    state.features.push_back(to_message(*feature));
+    state.utime = std::max(state.utime, feature->last_utime());
+  }
+  state.n_features = static_cast<std::int32_t>(state.features.size());
+  for (const auto& [id, feature] : saved.base_features) {
+    state.base_features.push_back(to_message(*feature));
+  }
+  state.n_base_features = static_cast<std::int32_t>(state.base_features.size());
+  if (saved.base_keyframe) state.base_keyframes.push_back(*saved.base_keyframe);
+  state.n_base_keyframes = static_cast<std::int32_t>(state.base_keyframes.size());
+  return state;
+}
+
+// Reads one map file; every failure names it.
+class MapFile {
+ public:
+  explicit MapFile(const std::filesystem::path& path) : path_(path) {}
+
+  SavedMap load() {
+    messaging::LogReader reader(path_.string());
+    while (const auto event = reader.next()) take(*event);
+    if (!reader.damages().empty()) fail("is damaged");
+    if (!state_) fail("holds no map (no MAP_STATE)");
+    take_state();
+    return std::move(saved_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error(path_.string() + " " + what);
+  }
+
+  template <class Message>
+  Message decode(const messaging::LogEvent& event) const {
+    auto decoded = messaging::safe_decode<Message>(event.data.data(), event.data.size());
+    if (!decoded.message) {
+      fail("holds a " + event.channel +
+           " that cannot be read: " + messaging::to_string(decoded.reason));
+    }
+    return std::move(*decoded.message);
+  }
+
+  void take(const messaging::LogEvent& event) {
+    if (event.channel == channels::kMapEvent) {
+      auto map_event = from_message(decode<geomap::map_event_t>(event));
+      if (!map_event) fail("holds an event that is no map event");
+      saved_.events.push_back(std::move(*map_event));
+    } else if (event.channel == channels::kMapState) {
+      state_ = decode<geomap::map_state_t>(event);
+    }
+  }
+
+  FeatureSet features(const std::vector<geomap::feature_state_t>& messages) const {
+    FeatureSet set;
+    for (const geomap::feature_state_t& message : messages) {
+      auto feature = from_message(message);
+      if (!feature) fail("holds a feature that is not valid");
+      const FeatureId id = feature->id;
+      set.emplace(id, std::make_shared<const MapFeature>(std::move(*feature)));
+    }
+    return set;
+  }
+
+  void take_state() {
+    const auto config = messaging::Config::from_text(to_yaml(MergeConfig{}, HistoryConfig{}),
+                                                     state_->config, path_.string());
+    saved_.merge = config.read<MergeConfig>("merge");
+    saved_.history = config.read<HistoryConfig>("history");
+    saved_.revision = state_->revision;
+    saved_.features = features(state_->features);
+    saved_.base_features = features(state_->base_features);
+    if (!state_->base_keyframes.empty()) saved_.base_keyframe = state_->base_keyframes.back();
+    if (map_hash(saved_.features) != state_->hash) fail("is damaged: its hash does not match");
+  }
+
+  std::filesystem::path path_;
+  std::optional<geomap::map_state_t> state_;
+  SavedMap saved_;
+};
+
+MapSnapshot snapshot_of(std::int64_t revision, const FeatureSet& features) {
+  MapSnapshot snapshot{revision, map_hash(features), {}};
+  for (const auto& [id, feature] : features) snapshot.features.push_back(*feature);
+  return snapshot;
+}
+
+}  // namespace
+
+void save_map(const std::filesystem::path& path, const GeometricMap& map) {
+  const SavedMap saved = map.saved();
+  const std::filesystem::path part = path.string() + ".part";
+  messaging::LogWriter writer(part.string());
+  for (const MapEvent& event : saved.events) {
+    const geomap::map_event_t message = to_message(event);
+    writer.write(channels::kMapEvent, message.utime, message);
+  }
+  const geomap::map_state_t state = state_of(saved);
+  writer.write(channels::kMapState, state.utime, state);
+  writer.close();
+  std::filesystem::rename(part, path);
+}
+
+SavedMap load_map(const std::filesystem::path& path) { return MapFile(path).load(); }
+
+MapSnapshot snapshot_of(const SavedMap& saved) {
+  return snapshot_of(saved.revision, saved.features);
+}
+
+MapSnapshot snapshot_of(const GeometricMap& map) {
+  return snapshot_of(map.revision(), map.features());
+}
+
+}  // namespace geomap::mapping

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "geomap/feature_state_t.hpp"
+#include "geomap/map_event_t.hpp"
+#include "mapping/map_event.hpp"
+#include "mapping/map_feature.hpp"
+
+namespace geomap::mapping {
+
+/// @brief An event, exact in every number.
+geomap::map_event_t to_message(const MapEvent& event);
+/// @brief The inverse; nothing for an unknown kind or a plane that is refused.
+std::optional<MapEvent> from_message(const geomap::map_event_t& message);
+
+/// @brief A feature of the map, exact in every number.
+geomap::feature_state_t to_message(const MapFeature& feature);
+/// @brief The inverse; nothing when the polygon breaks its invariant, or the observations are
+/// empty, unsorted, or do not begin with the id.
+std::optional<MapFeature> from_message(const geomap::feature_state_t& message);
+
+}  // namespace geomap::mapping

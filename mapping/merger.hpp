@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "mapping/feature_store.hpp"
+#include "mapping/map_feature.hpp"
+#include "mapping/merge_config.hpp"
+
+namespace geomap::mapping {
+
+/// @brief Puts a newly observed feature into the map, merging it with what it belongs to.
+/// In a merge the smallest id stays.
+class Merger {
+ public:
+  virtual ~Merger() = default;
+  virtual void insert(MapFeature feature, FeatureStore& store) const = 0;
+};
+
+/// @brief The merger of `config.mode`. @throws std::invalid_argument when the configuration is not
+/// valid.
+std::unique_ptr<Merger> make_merger(const MergeConfig& config);
+
+}  // namespace geomap::mapping

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "geometry/polygon.hpp"
+#include "mapping/map_feature.hpp"
+#include "mapping/merge_config.hpp"
+
+namespace geomap::mapping {
+
+/// @brief The first condition that keeps two features apart.
+enum class Difference {
+  kNone,      // the same surface
+  kSide,      // seen from opposite sides: a thin door stays two planes
+  kAngle,     // angle between the normals beyond the gate
+  kOverlap,   // too little overlap, even with the gap tolerance
+  kDistance,  // planes too far apart where the polygons overlap
+};
+
+/// @brief How alike two features are, measured where their polygons are.
+struct Similarity {
+  Difference difference = Difference::kNone;
+  double angle = 0.0;        // [rad]
+  double overlap = 0.0;      // area of the overlap, both grown by half the gap tolerance [m²]
+  double distance = 0.0;     // rms distance between the planes over the overlap [m]
+  geometry::Polygon b_in_a;  // b's polygon in a's frame, set once side and angle agree
+};
+
+/// @brief Decides whether two features are one surface. Gates come from the fits' uncertainties,
+/// within the bounds of `config`: the angle at most 3 combined sigma_angle; the rms distance over
+/// the overlap at most 3 sqrt(sigma_a² + sigma_b² + 2 sigma_pose²). Replaces equation 6 of the
+/// paper, which compares d at the world's origin: there a 3° error 8 m away reads as 0.4 m. The
+/// result does not depend on where the world's origin is.
+Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& config);
+
+}  // namespace geomap::mapping

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geometry/rgbd_frame.hpp"
+#include "perception/voxel_map.hpp"
+
+namespace geomap::perception {
+
+struct PointMapConfig {
+  VoxelMapConfig voxels;
+  int max_keyframe_bytes = 40'000;  // what is kept of a key frame, see thin_frame()
+
+  std::vector<std::string> validate() const;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& visitor) {
+    VoxelMapConfig::visit(self.voxels, visitor);
+    visitor("max_keyframe_bytes", self.max_keyframe_bytes);
+  }
+};
+
+/// @brief What the robot has seen: a fold over key frames. Of each one a thin frame is kept, and
+/// the voxels hold exactly the readings of the thin frames at their poses. So a key frame can be
+/// dropped or moved at any time, at the cost of that key frame alone, and the map is the same to
+/// the last bit as if it had been built so from the start, in any order.
+class PointMap {
+ public:
+  /// @throws std::invalid_argument when the configuration is not valid.
+  explicit PointMap(const PointMapConfig& config = {});
+
+  /// @brief Thins the frame and adds it. @param keyframe its id, the frame's utime [us].
+  /// @throws std::invalid_argument for an id that is in the map, and as VoxelMap::insert(); the map
+  /// is then as before.
+  void insert(std::int64_t keyframe, const geometry::RgbdFrame& frame,
+              const Eigen::Isometry3d& T_world_camera);
+
+  /// @return false when there is no such key frame.
+  bool remove(std::int64_t keyframe);
+
+  /// @brief Gives a key frame another pose. @return false when there is no such key frame.
+  /// @throws std::invalid_argument for a pose that is not rigid or out of range; nothing is moved.
+  bool move(std::int64_t keyframe, const Eigen::Isometry3d& T_world_camera);
+
+  void clear();
+
+  const VoxelMap& voxels() const { return voxels_; }
+  std::vector<MapPoint> points() const { return voxels_.points(); }
+  std::size_t size() const { return voxels_.size(); }  // points
+  std::size_t keyframes() const { return kept_.size(); }
+  std::size_t memory_bytes() const;  // voxels and the images of thin frames
+
+ private:
+  struct Kept {
+    geometry::RgbdFrame frame;
+    Eigen::Isometry3d T_world_camera;
+  };
+
+  PointMapConfig config_;
+  VoxelMap voxels_;
+  std::map<std::int64_t, Kept> kept_;  // by id
+};
+
+}  // namespace geomap::perception

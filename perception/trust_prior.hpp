@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "perception/registration.hpp"
+
+namespace geomap::perception {
+
+struct TrustPriorConfig {
+  int min_readings = 300;  // pixels with depth, below which a frame is taken for blind
+
+  std::vector<std::string> validate() const;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& visitor) {
+    visitor("min_readings", self.min_readings);
+  }
+};
+
+/// @brief Registration for robots and data sets whose poses are good already: takes every finite
+/// rigid prior as the pose, and measures neither rms nor overlap.
+class TrustPrior : public Registration {
+ public:
+  /// @throws std::invalid_argument when the configuration is not valid.
+  explicit TrustPrior(const TrustPriorConfig& config = {});
+
+  RegistrationResult align(const geometry::RgbdFrame& frame,
+                           const Eigen::Isometry3d& T_world_camera_prior) override;
+
+ private:
+  TrustPriorConfig config_;
+};
+
+}  // namespace geomap::perception

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The main job on real input: 500 frames of a hand-held Kinect in a kitchen become a map in which
+// the five reference planes are found once each, and in which nothing is invented.
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "drivers/seven_scenes_source.hpp"
+#include "geometry/polygon_clip.hpp"
+#include "logs/import.hpp"
+#include "logs/log_input.hpp"
+#include "logs/map_metrics.hpp"
+#include "logs/pipeline.hpp"
+#include "mapping/map_hash.hpp"
+#include "mapping/map_journal.hpp"
+#include "messaging/log_reader.hpp"
+#include "support/recordings.hpp"
+#include "support/support_points.hpp"
+
+namespace geomap::logs {
+namespace {
+
+namespace fs = std::filesystem;
+using mapping::MapFeature;
+
+constexpr double kRadiansPerDegree = 0.017453292519943295;
+
+struct ReferencePlane {
+  std::string name;
+  geometry::Plane plane;
+  Eigen::Vector3d centroid;
+};
+
+Eigen::Vector3d vector_of(const YAML::Node& node) {
+  return {node[0].as<double>(), node[1].as<double>(), node[2].as<double>()};
+}
+
+std::vector<ReferencePlane> reference_planes(const fs::path& file) {
+  std::vector<ReferencePlane> planes;
+  for (const YAML::Node& node : YAML::LoadFile(file.string())["planes"]) {
+    const Eigen::Vector3d normal = vector_of(node["normal"]);
+    planes.push_back({node["name"].as<std::string>(),
+                      {normal.normalized(), node["d"].as<double>() / normal.norm()},
+                      vector_of(node["centroid"])});
+  }
+  return planes;
+}
+
+// One replay of a log with given settings.
+std::unique_ptr<Pipeline> replay(const fs::path& log, const PipelineConfig& config, int threads) {
+  auto pipeline = std::make_unique<Pipeline>(config, threads);
+  LogInput input(*pipeline);
+  messaging::LogReader reader(log.string());
+  while (const auto event = reader.next()) input.handle(*event);
+  pipeline->finish();
+  EXPECT_TRUE(input.refused().empty());
+  return pipeline;
+}
+
+class Kitchen : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = testing::recording("redkitchen");
+    if (!folder_) return;
+    log_ = fs::temp_directory_path() / ("geomap_kitchen_" + std::to_string(getpid()) + ".lcmlog");
+    drivers::SevenScenesSource source(*folder_);
+    import_frames(source, {}, log_.string(), [](std::size_t) { return true; });
+    for (const char* mode : {"moments", "paper"}) {
+      PipelineConfig config;
+      config.merge.mode = mode;
+      (config.merge.mode == "paper" ? paper_ : moments_) = replay(log_, config, 2);
+    }
+  }
+  static void TearDownTestSuite() {
+    moments_.reset();
+    paper_.reset();
+    std::error_code ignored;
+    fs::remove(log_, ignored);
+  }
+  void SetUp() override {
+    if (!folder_) GTEST_SKIP() << "no recording 'redkitchen' under GEOMAP_DATA";
+  }
+
+  static std::vector<MapFeature> features(const Pipeline& pipeline) {
+    return mapping::snapshot_of(pipeline.map()).features;
+  }
+
+  static std::optional<fs::path> folder_;
+  static fs::path log_;
+  static std::unique_ptr<Pipeline> moments_;
+  static std::unique_ptr<Pipeline> paper_;
+};
+
+std::optional<fs::path> Kitchen::folder_;
+fs::path Kitchen::log_;
+std::unique_ptr<Pipeline> Kitchen::moments_;
+std::unique_ptr<Pipeline> Kitchen::paper_;
+
+TEST_F(Kitchen, AllFramesAreReadAndNoneIsRejected) {
+  EXPECT_EQ(moments_->frames(), 500);
+  EXPECT_EQ(moments_->keyframes().size(), 41u);
+  EXPECT_TRUE(moments_->rejected().empty());
+}
+
+TEST_F(Kitchen, EachReferencePlaneIsExactlyOneFeature) {
+  const std::vector<MapFeature> map = features(*moments_);
+  for (const ReferencePlane& reference : reference_planes(*folder_ / "reference_planes.yaml")) {
+    // The feature at the reference's centroid: coplanar parts elsewhere are features of their own.
+    std::vector<const MapFeature*> found;
+    for (const MapFeature& feature : map) {
+      const double angle = geometry::angle_between(feature.surface.plane, reference.plane);
+      const double distance = std::abs(feature.surface.plane.signed_distance(reference.centroid));
+      const Eigen::Vector3d at = feature.surface.frame.T_plane_parent() * reference.centroid;
+      if (angle > 1.5 * kRadiansPerDegree || distance > 0.025 ||
+          geometry::area(feature.surface.polygon) < 0.05 ||
+          !geometry::contains(geometry::offset(feature.surface.polygon, 0.15), at.head<2>())) {
+        continue;
+      }
+      found.push_back(&feature);
+      std::cout << reference.name << ": " << angle / kRadiansPerDegree << " deg, "
+                << 100.0 * distance << " cm, " << geometry::area(feature.surface.polygon) << " m2, "
+                << feature.observations.size() << " observations\n";
+    }
+    ASSERT_EQ(found.size(), 1u) << reference.name;
+    for (const MapFeature& other : map) {
+      const double area = geometry::area(other.surface.polygon);
+      if (&other == found[0] || area < 0.05) continue;
+      EXPECT_LE(stacked_area(*found[0], other), 0.2 * area)
+          << to_string(other.id) << " lies on " << reference.name;
+    }
+  }
+}
+
+TEST_F(Kitchen, NineTenthsOfTheMapLieOnMeasuredPoints) {
+  testing::SupportPoints points;
+  drivers::SevenScenesSource source(*folder_);
+  for (int i = 0; const auto frame = source.next(); ++i) {
+    if (i % 5 == 0) points.add(frame->frame, *frame->truth_T_world_camera);
+  }
+  for (const auto& [name, pipeline] :
+       {std::pair{"moments", moments_.get()}, {"paper", paper_.get()}}) {
+    const double share = points.supported_share(features(*pipeline), 0.025);
+    std::cout << name << ": " << 100.0 * share << " % of the area within 2.5 cm of points, "
+              << pipeline->map().features().size() << " features, "
+              << find_duplicates(features(*pipeline)).size() << " duplicates\n";
+    if (pipeline == moments_.get()) {
+      EXPECT_GE(share, 0.9);
+    }
+  }
+}
+
+TEST_F(Kitchen, TheHashIsTheSameAgainAndWithFourThreads) {
+  const std::string hash = mapping::map_hash(moments_->map().features());
+  EXPECT_EQ(mapping::map_hash(replay(log_, {}, 1)->map().features()), hash);
+  EXPECT_EQ(mapping::map_hash(replay(log_, {}, 4)->map().features()), hash);
+}
+
+// The events of a map, moved as a whole: what another choice of the world's frame would have given.
+std::vector<std::shared_ptr<const mapping::Observation>> observations(
+    const Pipeline& pipeline, const Eigen::Isometry3d& T_new_old) {
+  std::vector<std::shared_ptr<const mapping::Observation>> moved;
+  for (const auto& [id, observation] : pipeline.map().history().keyframes()) {
+    auto copy = std::make_shared<mapping::Observation>(*observation);
+    copy->T_world_camera = T_new_old * observation->T_world_camera;
+    moved.push_back(copy);
+  }
+  return moved;
+}
+
+mapping::GeometricMap folded(
+    const std::vector<std::shared_ptr<const mapping::Observation>>& views) {
+  mapping::GeometricMap map(mapping::MergeConfig{}, mapping::HistoryConfig{});
+  for (const auto& view : views) map.apply(view);
+  return map;
+}
+
+double largest_vertex_distance(const mapping::FeatureSet& before, const mapping::FeatureSet& after,
+                               const Eigen::Isometry3d& T_after_before) {
+  double largest = 0.0;
+  for (const auto& [id, feature] : before) {
+    const auto other = after.find(id);
+    if (other == after.end()) return std::numeric_limits<double>::infinity();
+    const auto& parts = feature->surface.polygon.parts;
+    const auto& other_parts = other->second->surface.polygon.parts;
+    if (parts.size() != other_parts.size()) return std::numeric_limits<double>::infinity();
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      for (const geometry::GridPoint vertex : parts[p].outer) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const geometry::GridPoint v : other_parts[p].outer) {
+          nearest = std::min(nearest, (T_after_before * feature->surface.lift(vertex) -
+                                       other->second->surface.lift(v))
+                                          .norm());
+        }
+        largest = std::max(largest, nearest);
+      }
+    }
+  }
+  return largest;
+}
+
+TEST_F(Kitchen, TheMapMovesWithTheWorldsFrame) {
+  const mapping::FeatureSet& before = moments_->map().features();
+  for (const double angle : {0.0, 0.7, 2.5}) {
+    Eigen::Isometry3d T(Eigen::AngleAxisd(angle, Eigen::Vector3d(1, -2, 3).normalized()));
+    T.translation() = Eigen::Vector3d(1000, -500, 3);
+    const mapping::GeometricMap moved = folded(observations(*moments_, T));
+    EXPECT_EQ(moved.features().size(), before.size());
+    const double largest = largest_vertex_distance(before, moved.features(), T);
+    std::cout << "turned by " << angle << " rad: vertices within " << 1e3 * largest << " mm\n";
+    EXPECT_LT(largest, 1e-3);
+  }
+}
+
+TEST_F(Kitchen, CorrectingAllPosesByOneTransformMovesTheMapByIt) {
+  Eigen::Isometry3d T(Eigen::AngleAxisd(0.4, Eigen::Vector3d(0, 1, 1).normalized()));
+  T.translation() = Eigen::Vector3d(3, 2, 1);
+  mapping::GeometricMap map = folded(observations(*moments_, Eigen::Isometry3d::Identity()));
+  mapping::PoseCorrection correction;
+  for (const auto& [id, view] : map.history().keyframes()) {
+    correction.poses.emplace_back(id, T * view->T_world_camera);
+  }
+  map.apply(correction);
+  EXPECT_LT(largest_vertex_distance(moments_->map().features(), map.features(), T), 1e-3);
+}
+
+TEST_F(Kitchen, RemovingAKeyframeGivesTheHashOfAMapThatNeverSawIt) {
+  const auto views = observations(*moments_, Eigen::Isometry3d::Identity());
+  for (const std::size_t removed : {0ul, 11ul, 20ul, views.size() - 1}) {
+    auto others = views;
+    others.erase(others.begin() + static_cast<long>(removed));
+    mapping::GeometricMap map = folded(views);
+    map.apply(mapping::KeyframeRemoval{views[removed]->keyframe});
+    EXPECT_EQ(mapping::map_hash(map.features()), mapping::map_hash(folded(others).features()));
+  }
+}
+
+TEST_F(Kitchen, TheOrderInWhichKeyframesArriveDoesNotMatter) {
+  auto views = observations(*moments_, Eigen::Isometry3d::Identity());
+  std::reverse(views.begin(), views.end());
+  EXPECT_EQ(mapping::map_hash(folded(views).features()),
+            mapping::map_hash(moments_->map().features()));
+}
+
+// Renumbered key frames are folded in another order: what fusing itself makes of the order.
+TEST_F(Kitchen, FusingInAnotherOrderGivesTheSameLargeFeatures) {
+  auto views = observations(*moments_, Eigen::Isometry3d::Identity());
+  std::reverse(views.begin(), views.end());
+  std::vector<std::shared_ptr<const mapping::Observation>> renumbered;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    auto copy = std::make_shared<mapping::Observation>(*views[i]);
+    copy->keyframe = static_cast<std::int64_t>(i + 1);
+    renumbered.push_back(copy);
+  }
+  const mapping::GeometricMap other = folded(renumbered);
+  const std::vector<MapFeature> mine = features(*moments_);
+  const std::vector<MapFeature> theirs = mapping::snapshot_of(other).features;
+  int large = 0, matched = 0;
+  for (const MapFeature& feature : mine) {
+    const double area = geometry::area(feature.surface.polygon);
+    if (area < 0.1) continue;
+    ++large;
+    const MapFeature* best = nullptr;
+    double best_overlap = 0.5 * area;
+    for (const MapFeature& candidate : theirs) {
+      const double overlap = stacked_area(feature, candidate);
+      if (overlap > best_overlap) best_overlap = overlap, best = &candidate;
+    }
+    if (best == nullptr) {
+      std::cout << to_string(feature.id) << " " << area << " m2: none\n";
+      continue;
+    }
+    const double angle =
+        geometry::angle_between(feature.surface.plane, best->surface.plane) / kRadiansPerDegree;
+    const Eigen::Vector3d at =
+        feature.surface.lift(geometry::area_moments(feature.surface.polygon).centroid);
+    const double distance = std::abs(best->surface.plane.signed_distance(at));
+    if (angle < 0.1 && distance < 0.002) {
+      ++matched;
+    } else {
+      std::cout << to_string(feature.id) << " " << area << " m2: " << angle << " deg, "
+                << 1e3 * distance << " mm, overlap " << best_overlap << "\n";
+    }
+  }
+  std::cout << matched << " of " << large << " large features the same; " << mine.size() << " and "
+            << theirs.size() << " features\n";
+}
+
+}  // namespace
+}  // namespace geomap::logs
