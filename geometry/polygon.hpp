@@ -12,8 +12,8 @@ namespace geomap::geometry {
 /// @brief Size of one grid unit of polygon coordinates [m].
 inline constexpr double kGridUnit = 1e-4;
 
-/// @brief A vertex on the 0.1 mm grid of a plane frame. Whole numbers, so that a polygon is the same to
-/// the last bit in memory, on the wire and in a file.
+/// @brief A vertex on the 0.1 mm grid of a plane frame. Whole numbers, so that a polygon is the
+/// same to the last bit in memory, on the wire and in a file.
 struct GridPoint {
   std::int32_t x = 0;  // [0.1 mm]
   std::int32_t y = 0;  // [0.1 mm]
@@ -37,11 +37,11 @@ struct PolygonPart {
 
 /// @brief Area on a plane: any number of parts, each with any number of holes.
 ///
-/// Invariant of every polygon this library returns (`find_fault` tells a breach): every ring is simple
-/// (no crossing, no touching of itself, no repeated vertex), has at least three vertices and a non-zero
-/// area; outer rings run counter-clockwise, holes clockwise; a hole lies inside its outer ring, no two
-/// rings cross. Different rings may touch in points. Rings start at their smallest vertex and are
-/// sorted, so equal areas with equal vertices compare equal.
+/// Invariant of every polygon this library returns (`find_fault` tells a breach): every ring is
+/// simple (no crossing, no touching of itself, no repeated vertex), has at least three vertices and
+/// a non-zero area; outer rings run counter-clockwise, holes clockwise; a hole lies inside its
+/// outer ring, no two rings cross. Different rings may touch in points. Rings start at their
+/// smallest vertex and are sorted, so equal areas with equal vertices compare equal.
 struct Polygon {
   std::vector<PolygonPart> parts;
   bool empty() const { return parts.empty(); }
@@ -50,9 +50,9 @@ struct Polygon {
 
 /// @brief Area, centroid and second central moments of an area, exact integrals over the polygon.
 struct AreaMoments {
-  double area = 0.0;                                         // [m²]
-  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();        // [m]
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();      // [m²]
+  double area = 0.0;                                     // [m²]
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();    // [m]
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [m²]
 };
 
 /// @brief Signed area [m²], positive counter-clockwise.

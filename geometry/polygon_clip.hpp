@@ -8,9 +8,12 @@
 
 namespace geomap::geometry {
 
-/// Boolean operations on polygons of one plane frame by Vatti's algorithm (Clipper) on the 0.1 mm grid.
-/// Every result holds the invariant of `Polygon`; where the clipper leaves rings that touch themselves
-/// they are split or opened by at most a few grid units. Slivers below 1 mm² are dropped.
+/// Boolean operations on polygons of one plane frame by Vatti's algorithm (Clipper) on the 0.1 mm
+/// grid. Operands are valid polygons. Every result holds the invariant of `Polygon` and is
+/// canonical; where the clipper leaves rings that touch themselves or each other, snap rounding
+/// (snap_overlay.hpp) takes its place. Vertices move by at most a grid unit, exactly collinear ones
+/// go, and parts and holes below 1 mm² are dropped. Results do not depend on the order of the
+/// operands of unite and intersect.
 
 /// @brief How rings that overlap or cross themselves are read.
 enum class FillRule { kNonZero, kEvenOdd };
@@ -27,8 +30,10 @@ Polygon intersect(const Polygon& a, const Polygon& b);
 /// @brief Area of `a` that `b` does not cover.
 Polygon subtract(const Polygon& a, const Polygon& b);
 
-/// @brief The polygon grown (distance > 0) or shrunk (< 0) by a distance [m]; mitred corners, so that
-/// growing and shrinking a rectangle gives it back.
+/// @brief The polygon grown (distance > 0) or shrunk (< 0) by a distance [m]; mitred corners, so
+/// that growing and shrinking a rectangle gives it back; corners sharper than 47° are cut off.
+/// @throws std::invalid_argument when the distance is not finite or the result would leave the
+/// grid.
 Polygon offset(const Polygon& polygon, double distance);
 
 }  // namespace geomap::geometry

@@ -15,8 +15,8 @@ struct Triangulation {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into vertices
 };
 
-/// @brief Constrained Delaunay triangulation of the polygon's inside; holes stay open. Area equals the
-/// polygon's. Empty for an empty polygon.
+/// @brief Constrained Delaunay triangulation of the polygon's inside; holes stay open. Area equals
+/// the polygon's. Empty for an empty polygon.
 Triangulation triangulate(const Polygon& polygon);
 
 }  // namespace geomap::geometry

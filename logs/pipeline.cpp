@@ -39,15 +39,20 @@ void Pipeline::add_frame(geomap::rgbd_frame_t message) {
 }
 
 void Pipeline::finish() {
-  for (; !waiting_.empty(); waiting_.pop_front()) process(waiting_.front());
+  while (!waiting_.empty()) process_next();
   while (!extractions_.empty()) merge_oldest();
 }
 
 void Pipeline::process_ready() {
   while (!waiting_.empty() && prior_.is_ready(waiting_.front().utime)) {
-    process(waiting_.front());
-    waiting_.pop_front();
+    process_next();
   }
+}
+
+void Pipeline::process_next() {
+  const geomap::rgbd_frame_t message = std::move(waiting_.front());
+  waiting_.pop_front();
+  process(message);
 }
 
 // One frame, in the order of the paper's section III: prior, key frame?, registration, point map,
@@ -83,7 +88,12 @@ void Pipeline::process(const geomap::rgbd_frame_t& message) {
     ++rejected_[std::string(perception::to_string(registered.reason))];
     return;
   }
-  point_map_.insert(record.id, *decoded.frame, registered.T_world_camera);
+  try {
+    point_map_.insert(record.id, *decoded.frame, registered.T_world_camera);
+  } catch (const std::invalid_argument&) {  // farther from the origin than its numbers reach
+    ++rejected_["out_of_range"];
+    return;
+  }
   selector_.accept(registered.T_world_camera);
   accepted_.insert(record.id);
   record.T_world_camera = registered.T_world_camera;

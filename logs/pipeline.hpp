@@ -77,6 +77,7 @@ class Pipeline {
   };
 
   void process_ready();
+  void process_next();
   void process(const geomap::rgbd_frame_t& message);
   void start_extraction(KeyframeRecord record, geometry::RgbdFrame frame);
   void merge_oldest();

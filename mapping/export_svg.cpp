@@ -4,15 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <stdexcept>
 
 #include "mapping/export_svg_canvas.hpp"
+#include "mapping/export_svg_legend.hpp"
 #include "mapping/export_svg_panel.hpp"
-#include "mapping/export_svg_style.hpp"
 
 namespace geomap::mapping {
 namespace {
@@ -25,8 +23,6 @@ constexpr double kFooterRow = 26.0;
 constexpr double kGap = 34.0;  // between panels
 constexpr double kTitleSize = 20.0;
 constexpr double kSubtitleSize = 13.0;
-constexpr double kLegendSize = 12.0;
-constexpr double kLongestScaleBar = 170.0;
 constexpr double kSmallestBox = 0.05;  // [m], keeps the scale of a tiny map in bounds
 
 using Columns = std::vector<std::vector<std::size_t>>;  // indices of panels, top down
@@ -134,74 +130,6 @@ Eigen::Vector2d arrange(std::vector<SvgPanel>& panels, const SvgOptions& options
   return size;
 }
 
-// The largest of 1, 2, 5 times a power of ten [m] that is drawn no longer than the limit.
-double round_length(double scale) {
-  const double longest = kLongestScaleBar / scale;
-  const double power = std::pow(10.0, std::floor(std::log10(longest)));
-  for (const double digit : {5.0, 2.0}) {
-    if (digit * power <= longest) return digit * power;
-  }
-  return power;
-}
-
-void draw_scale_bar(SvgCanvas& canvas, const Eigen::Vector2d& at, double scale) {
-  const double length = round_length(scale);
-  const Eigen::Vector2d end = at + Eigen::Vector2d(length * scale, 0.0);
-  const Eigen::Vector2d tick(0.0, 5.0);
-  const std::string_view ink = "#1f2933";
-  canvas.line(at, end, ink, 1.6);
-  canvas.line(at - tick, at + tick, ink, 1.6);
-  canvas.line(end - tick, end + tick, ink, 1.6);
-  const std::string text = length >= 1.0    ? fmt::format("{:.0f} m", length)
-                           : length >= 0.01 ? fmt::format("{:.0f} cm", 100.0 * length)
-                                            : fmt::format("{:.0f} mm", 1000.0 * length);
-  canvas.text(end + Eigen::Vector2d(10.0, 4.0), text, {.size = kLegendSize});
-}
-
-struct LegendEntry {
-  std::array<Rgb, 2> colors;  // left and right half of the swatch
-  std::string text;
-  double opacity = 1.0;
-  double width() const { return 38.0 + text_width(text, kLegendSize); }
-};
-
-std::vector<LegendEntry> legend_of(const MapSnapshot& map, const std::vector<SvgPanel>& panels) {
-  std::set<Orientation> present;
-  for (const MapFeature& feature : map.features) present.insert(orientation_of(feature));
-  std::vector<LegendEntry> entries;
-  for (const Orientation orientation : kOrientations) {
-    if (!present.contains(orientation)) continue;
-    entries.push_back(
-        {orientation_colors(orientation), std::string(orientation_name(orientation))});
-  }
-  const bool any_behind = std::any_of(panels.begin(), panels.end(), [](const SvgPanel& panel) {
-    return std::any_of(panel.features.begin(), panel.features.end(), is_seen_from_behind);
-  });
-  const Rgb grey = {123, 135, 148};
-  if (any_behind) entries.push_back({{grey, grey}, "pale: seen from behind", 0.12});
-  return entries;
-}
-
-double legend_width(const std::vector<LegendEntry>& entries) {
-  double width = 0.0;
-  for (const LegendEntry& entry : entries) width += entry.width();
-  return width;
-}
-
-void draw_legend(SvgCanvas& canvas, Eigen::Vector2d at, const std::vector<LegendEntry>& entries) {
-  for (const LegendEntry& entry : entries) {
-    const Eigen::Vector2d corner = at - Eigen::Vector2d(0.0, 6.0);
-    for (std::size_t half = 0; half < 2; ++half) {
-      canvas.rectangle(corner + Eigen::Vector2d(9.0 * static_cast<double>(half), 0.0), {9.0, 12.0},
-                       {.fill = to_hex(entry.colors[half]), .fill_opacity = entry.opacity});
-    }
-    canvas.rectangle(corner, {18.0, 12.0},
-                     {.stroke = to_hex(outline_color(entry.colors[0])), .stroke_width = 0.8});
-    canvas.text(at + Eigen::Vector2d(24.0, 4.0), entry.text, {.size = kLegendSize});
-    at.x() += entry.width();
-  }
-}
-
 void draw_title(SvgCanvas& canvas, const std::string& title, const std::string& subtitle) {
   canvas.text({kMargin, kMargin + 18.0}, title, {.size = kTitleSize, .bold = true});
   canvas.text({kMargin, kMargin + 40.0}, subtitle, {.size = kSubtitleSize, .color = "#52606d"});
@@ -231,7 +159,7 @@ std::string to_svg(const MapSnapshot& map, const SvgOptions& options) {
   const Eigen::Vector2d drawings = arrange(panels, options);
   const double scale = panels.front().scale;
   const std::vector<LegendEntry> legend = legend_of(map, panels);
-  const double bar_width = round_length(scale) * scale + 70.0;
+  const double bar_width = scale_bar_width(scale);
   const bool one_row = bar_width + legend_width(legend) <= drawings.x();
   const double inner_width =
       std::max({drawings.x(), text_width(title, kTitleSize), text_width(subtitle, kSubtitleSize),

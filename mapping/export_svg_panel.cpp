@@ -86,6 +86,13 @@ std::string label_text(const ProjectedFeature& projected) {
   return text;
 }
 
+bool has_vertex_in(const Eigen::AlignedBox2d& box, const PictureRings& rings) {
+  return std::any_of(rings.begin(), rings.end(), [&](const auto& ring) {
+    return std::any_of(ring.begin(), ring.end(),
+                       [&](const Eigen::Vector2d& vertex) { return box.contains(vertex); });
+  });
+}
+
 // Finds every label a spot where its text lies on nothing else: on no other label, and on no face
 // that is painted over the feature.
 class LabelPlacer {
@@ -124,23 +131,31 @@ class LabelPlacer {
                        [&](const Eigen::AlignedBox2d& other) { return other.intersects(box); });
   }
 
-  // On the feature, and neither under nor (for one seen from behind) above a face.
+  // Faces that a text on the feature must not lie on: those over it; of one seen from behind, all.
+  bool counts_as_cover(std::size_t other, std::size_t index) const {
+    if (other == index || shapes_[other].from_behind) return false;
+    return other > index || shapes_[index].from_behind;
+  }
+
   bool is_free(const Eigen::Vector2d& point, std::size_t index) const {
     if (clearance(shapes_[index].rings, point) <= 0.0) return false;
-    for (std::size_t i = shapes_[index].from_behind ? 0 : index + 1; i < shapes_.size(); ++i) {
-      const Shape& other = shapes_[i];
-      if (i == index || other.from_behind || !other.box.contains(point)) continue;
-      if (clearance(other.rings, point) > 0.0) return false;
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      if (!counts_as_cover(i, index) || !shapes_[i].box.contains(point)) continue;
+      if (clearance(shapes_[i].rings, point) > 0.0) return false;
     }
     return true;
   }
 
   bool is_free(const Eigen::AlignedBox2d& box, std::size_t index) const {
-    for (const double across : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
+    for (const double across : {-0.5, 0.0, 0.5}) {
       for (const double down : {-0.5, 0.5}) {
         const Eigen::Vector2d part(across * box.sizes().x(), down * box.sizes().y());
         if (!is_free(Eigen::Vector2d(box.center() + part), index)) return false;
       }
+    }
+    // A face smaller than the text may lie between those points.
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      if (counts_as_cover(i, index) && has_vertex_in(box, shapes_[i].rings)) return false;
     }
     return true;
   }

@@ -27,7 +27,22 @@ std::vector<GridPoint> sorted_vertices(const Polygon& polygon) {
   return vertices;
 }
 
+// Most that one view may weigh [1/m²]. Its offset is no better than the camera's pose, however many
+// pixels it has; and a patch weighs no more than its share of surface, or else a few small ones at
+// the rim, each off by what the camera's systematic errors allow, would turn a large plane.
+double view_weight(const geometry::PlaneObservation& seen, const MergeConfig& config) {
+  const double share =
+      std::min(1.0, geometry::area(seen.surface.polygon) / config.full_weight_area);
+  return share / view_variance(seen.moments, config);
+}
+
 }  // namespace
+
+double view_variance(const geometry::PlaneMoments& moments, const MergeConfig& config) {
+  const double sensor_variance = moments.noise.trace() / moments.weight;
+  return config.sigma_pose * config.sigma_pose +
+         config.systematic_share * config.systematic_share * sensor_variance;
+}
 
 std::optional<MapFeature> feature_of(const Observation& observation, std::int32_t plane_number,
                                      const MergeConfig& config) {
@@ -41,7 +56,7 @@ std::optional<MapFeature> feature_of(const Observation& observation, std::int32_
   feature.observations = {feature.id};
   feature.surface = seen.surface.transformed(observation.T_world_camera);
   feature.moments = seen.moments.transformed(seen.surface.frame.T_plane_parent())
-                        .capped(1.0 / (config.sigma_pose * config.sigma_pose));
+                        .capped(view_weight(seen, config));
   feature.inliers = seen.inliers;
   feature.color = seen.color;
   if (!feature.moments.fit(Eigen::Vector3d::UnitZ())) return std::nullopt;

@@ -9,9 +9,15 @@
 
 namespace geomap::mapping {
 
+/// @brief Variance [m²] of the offset of one view of a surface: the camera's pose, and the part of
+/// the sensor's error that is the same all over the view. Taken from the moments' own noise term,
+/// so it grows with depth as the sensor's noise does.
+double view_variance(const geometry::PlaneMoments& moments, const MergeConfig& config);
+
 /// @brief One observed plane as a feature of its own, in the world: moments in the plane frame,
-/// scaled so that one view weighs at most 1/sigma_pose². Nothing when the view is too oblique to
-/// decide the plane's side (|n·ray| below the limit) or its moments span no plane.
+/// scaled so that one view weighs at most
+/// 1/view_variance, and less where it covers little surface. Nothing when the view is too oblique
+/// to decide the plane's side (|n·ray| below the limit) or its moments span no plane.
 std::optional<MapFeature> feature_of(const Observation& observation, std::int32_t plane_number,
                                      const MergeConfig& config);
 

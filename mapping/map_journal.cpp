@@ -21,6 +21,8 @@ namespace {
 
 namespace channels = messaging::channels;
 
+constexpr std::int64_t kNoKeyframe = -1;
+
 // A section of YAML that reads back to the same numbers.
 template <class Settings>
 std::string to_yaml(const std::string& section, const Settings& settings) {
@@ -49,8 +51,7 @@ geomap::map_state_t state_of(const SavedMap& saved) {
     state.base_features.push_back(to_message(*feature));
   }
   state.n_base_features = static_cast<std::int32_t>(state.base_features.size());
-  if (saved.base_keyframe) state.base_keyframes.push_back(*saved.base_keyframe);
-  state.n_base_keyframes = static_cast<std::int32_t>(state.base_keyframes.size());
+  state.base_keyframe = saved.base_keyframe.value_or(kNoKeyframe);
   return state;
 }
 
@@ -112,7 +113,7 @@ class MapFile {
     saved_.revision = state_->revision;
     saved_.features = features(state_->features);
     saved_.base_features = features(state_->base_features);
-    if (!state_->base_keyframes.empty()) saved_.base_keyframe = state_->base_keyframes.back();
+    if (state_->base_keyframe != kNoKeyframe) saved_.base_keyframe = state_->base_keyframe;
     if (map_hash(saved_.features) != state_->hash) fail("is damaged: its hash does not match");
   }
 

@@ -10,6 +10,8 @@ std::vector<std::string> MergeConfig::validate() const {
   };
   require(mode == "moments" || mode == "paper", "mode must be 'moments' or 'paper'");
   require(sigma_pose > 0.0, "sigma_pose must be positive");
+  require(systematic_share >= 0.0, "systematic_share must not be negative");
+  require(full_weight_area > 0.0, "full_weight_area must be positive");
   require(min_angle_deg > 0.0 && max_angle_deg >= min_angle_deg && max_angle_deg < 90.0,
           "angles must satisfy 0 < min_angle_deg <= max_angle_deg < 90");
   require(min_distance > 0.0 && max_distance >= min_distance,

@@ -12,6 +12,8 @@ struct MergeConfig {
 
   // mode moments
   double sigma_pose = 0.005;        // systematic error of one view's offset: caps its weight [m]
+  double systematic_share = 1.0;    // of the sensor's sigma_z that averaging a view does not remove
+  double full_weight_area = 1.0;    // views of less surface weigh in proportion to it [m²]
   double min_angle_deg = 3.0;       // planes this close in angle may always merge
   double max_angle_deg = 15.0;      // never merge beyond, however uncertain
   double min_distance = 0.01;       // bounds of the distance gate, rms over the overlap [m]
@@ -34,6 +36,8 @@ struct MergeConfig {
   static void visit(Self& self, Visitor&& visitor) {
     visitor("mode", self.mode);
     visitor("sigma_pose", self.sigma_pose);
+    visitor("systematic_share", self.systematic_share);
+    visitor("full_weight_area", self.full_weight_area);
     visitor("min_angle_deg", self.min_angle_deg);
     visitor("max_angle_deg", self.max_angle_deg);
     visitor("min_distance", self.min_distance);

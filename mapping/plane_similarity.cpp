@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/polygon_clip.hpp"
+#include "mapping/fuse.hpp"
 
 namespace geomap::mapping {
 namespace {
@@ -14,11 +15,25 @@ using geometry::PlaneFit;
 
 constexpr double kRadiansPerDegree = 0.017453292519943295;
 
-// Standard deviation [m] of a feature's offset at a point of the world, from its fit in its own
-// frame.
-double sigma_offset(const MapFeature& feature, const Eigen::Vector3d& p_world) {
+// How well a feature is known. A single view, however small, is taken to be as good as a view can
+// be: that a small patch weighs little in a fusion does not make it likelier to belong anywhere.
+struct Uncertainty {
+  double view = 0.0;    // variance of one view's offset [m²]
+  double angle = 0.0;   // variance of the normal [rad²]
+  double offset = 0.0;  // variance of the offset at a point [m²]
+};
+
+Uncertainty uncertainty(const MapFeature& feature, const Eigen::Vector3d& at_world,
+                        const MergeConfig& config) {
+  Uncertainty result;
+  result.view = view_variance(feature.moments, config);
   const auto fit = feature.moments.fit(Eigen::Vector3d::UnitZ());
-  return fit ? fit->sigma_offset(feature.surface.frame.T_plane_parent() * p_world) : 0.0;
+  if (!fit) return result;
+  const double sigma_angle = fit->sigma_angle();
+  const double sigma_offset = fit->sigma_offset(feature.surface.frame.T_plane_parent() * at_world);
+  result.angle = std::min(sigma_angle * sigma_angle, result.view / fit->extent.y());
+  result.offset = std::min(sigma_offset * sigma_offset, result.view);
+  return result;
 }
 
 // Rms over an area of the distance between two planes, both given in the area's frame: the
@@ -53,10 +68,14 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
     return result;
   }
 
+  const Eigen::Vector3d between =
+      0.5 * (a.surface.frame.origin + b.surface.frame.origin);  // the angle is the same everywhere
+  const double angle_variance =
+      uncertainty(a, between, config).angle + uncertainty(b, between, config).angle;
+  const double angle_limit =
+      std::clamp(3.0 * std::sqrt(angle_variance), config.min_angle_deg * kRadiansPerDegree,
+                 config.max_angle_deg * kRadiansPerDegree);
   result.angle = geometry::angle_between(plane_a, plane_b);
-  const double angle_limit = std::clamp(3.0 * std::hypot(a.sigma_angle, b.sigma_angle),
-                                        config.min_angle_deg * kRadiansPerDegree,
-                                        config.max_angle_deg * kRadiansPerDegree);
   if (result.angle > angle_limit) {
     result.difference = Difference::kAngle;
     return result;
@@ -78,11 +97,10 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
   result.distance =
       rms_distance(plane_a.transformed(T_frame_world), plane_b.transformed(T_frame_world), overlap);
   const Eigen::Vector3d where = a.surface.lift(overlap.centroid);
-  const double sigma_a = sigma_offset(a, where);
-  const double sigma_b = sigma_offset(b, where);
+  const Uncertainty of_a = uncertainty(a, where, config);
+  const Uncertainty of_b = uncertainty(b, where, config);
   const double distance_limit =
-      std::clamp(3.0 * std::sqrt(sigma_a * sigma_a + sigma_b * sigma_b +
-                                 2.0 * config.sigma_pose * config.sigma_pose),
+      std::clamp(3.0 * std::sqrt(of_a.offset + of_b.offset + of_a.view + of_b.view),
                  config.min_distance, config.max_distance);
   if (result.distance > distance_limit) result.difference = Difference::kDistance;
   return result;

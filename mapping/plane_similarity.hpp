@@ -25,11 +25,12 @@ struct Similarity {
   geometry::Polygon b_in_a;  // b's polygon in a's frame, set once side and angle agree
 };
 
-/// @brief Decides whether two features are one surface. Gates come from the fits' uncertainties,
+/// @brief Decides whether two features are one surface. Gates come from the uncertainty of both,
 /// within the bounds of `config`: the angle at most 3 combined sigma_angle; the rms distance over
-/// the overlap at most 3 sqrt(sigma_a² + sigma_b² + 2 sigma_pose²). Replaces equation 6 of the
-/// paper, which compares d at the world's origin: there a 3° error 8 m away reads as 0.4 m. The
-/// result does not depend on where the world's origin is.
+/// the overlap at most 3 sqrt(sigma_a² + sigma_b² + v_a + v_b), where v is the variance that every
+/// single view has (view_variance: pose and sensor) and that no averaging removes. Replaces
+/// equation 6 of the paper, which compares d at the world's origin: there a 3° error 8 m away reads
+/// as 0.4 m. The result does not depend on where the world's origin is.
 Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& config);
 
 }  // namespace geomap::mapping

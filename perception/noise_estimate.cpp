@@ -11,18 +11,27 @@ namespace {
 
 constexpr int kBlockCells = 4;       // 16 x 16 pixels
 constexpr double kLeastPixels = 200;  // of the 256 of a block
-constexpr int kLeastBlocks = 8;       // below that a quartile means nothing
+constexpr int kLeastBlocks = 8;       // below that a quantile means nothing
 constexpr double kBinDepth = 0.5;     // [m]
-// The lower quartile of a residual's rms with 253 degrees of freedom, over its true value.
-constexpr double kQuartileOfRms = 0.970;
+constexpr double kQuantile = 0.1;     // of the blocks' residuals that is taken as noise
+// That quantile of a residual's rms with 253 degrees of freedom, over its true value.
+constexpr double kQuantileOfRms = 0.943;
 
 struct BlockNoise {
   double depth = 0.0;  // [m]
   double sigma = 0.0;  // residual along the ray, rounding to the depth unit taken off [m]
 };
 
+// Standard deviation of the block's depth about its mean [m].
+double relief(const InverseDepthSums& sums) {
+  const double mean = sums.q / sums.count;
+  return std::sqrt(std::max(0.0, sums.qq / sums.count - mean * mean)) / (mean * mean);
+}
+
+// Blocks of equal readings lie within one step of a coarse sensor, or face a noise-free one: they tell
+// nothing, and are left out where there are others.
 std::vector<BlockNoise> measure_blocks(const DepthCells& cells, double quantisation) {
-  std::vector<BlockNoise> blocks;
+  std::vector<BlockNoise> blocks, level;
   for (int r = 0; r + kBlockCells <= cells.rows(); r += kBlockCells) {
     for (int c = 0; c + kBlockCells <= cells.columns(); c += kBlockCells) {
       const InverseDepthSums sums = cells.window(c, r, c + kBlockCells, r + kBlockCells);
@@ -32,24 +41,29 @@ std::vector<BlockNoise> measure_blocks(const DepthCells& cells, double quantisat
       const double z = sums.mean_depth();
       const double residual = fit->rms * z * z;  // dz = z² dq
       const double rounding = quantisation * quantisation / 12.0;
-      blocks.push_back({z, std::sqrt(std::max(0.0, residual * residual - rounding))});
+      auto& kind = relief(sums) > quantisation ? blocks : level;
+      kind.push_back({z, std::sqrt(std::max(0.0, residual * residual - rounding))});
     }
+  }
+  if (blocks.size() < static_cast<std::size_t>(kLeastBlocks)) {
+    blocks.insert(blocks.end(), level.begin(), level.end());
   }
   return blocks;
 }
 
-double lower_quartile(std::vector<double> values) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
+double low_quantile(std::vector<double> values) {
+  const auto rank = static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(values.size()));
+  const auto at = values.begin() + rank;
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
 
 template <typename Measure>
-double lower_quartile_of(const std::vector<BlockNoise>& blocks, const Measure& measure) {
+double low_quantile_of(const std::vector<BlockNoise>& blocks, const Measure& measure) {
   std::vector<double> values;
   values.reserve(blocks.size());
   for (const BlockNoise& block : blocks) values.push_back(measure(block));
-  return lower_quartile(std::move(values)) / kQuartileOfRms;
+  return low_quantile(std::move(values)) / kQuantileOfRms;
 }
 
 // How unevenly a measure is spread over depth: standard deviation of its logarithm between depth bins.
@@ -64,7 +78,7 @@ double spread_over_depth(const std::vector<BlockNoise>& blocks, const Measure& m
   for (const auto& [bin, members] : bins) {
     if (members.size() < static_cast<std::size_t>(kLeastBlocks)) continue;
     const double weight = static_cast<double>(members.size());
-    const double value = std::log(std::max(1e-6, lower_quartile_of(members, measure)));
+    const double value = std::log(std::max(1e-6, low_quantile_of(members, measure)));
     n += weight;
     sum += weight * value;
     squares += weight * value * value;
@@ -87,8 +101,8 @@ geometry::DepthNoise estimate_noise(const DepthCells& cells, const geometry::Dep
   const auto over_base = [&](const BlockNoise& b) { return b.sigma / unit.base; };
 
   geometry::DepthNoise estimate = model;
-  const double of_model = lower_quartile_of(blocks, over_model);
-  const double of_base = lower_quartile_of(blocks, over_base);
+  const double of_model = low_quantile_of(blocks, over_model);
+  const double of_base = low_quantile_of(blocks, over_base);
   // White noise: the same at all depths. Half the model's spread, since either measure scatters.
   const bool is_measurable = of_model > kLeastNoiseFactor;
   const double model_spread = spread_over_depth(blocks, over_model);

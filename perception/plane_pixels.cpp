@@ -155,6 +155,14 @@ void PixelAssigner::label_cell(int column, int row, const Candidate* candidates,
 void PixelAssigner::sum_up(std::size_t planes, int row_step, PlanePixels& result) const {
   result.cells.assign(planes, {});
   result.cell_label.assign(static_cast<std::size_t>(cells_.size()), kNoPlane);
+  // Room for about as many cells as the planes cover: these lists are the largest memory in use.
+  std::vector<std::size_t> covered(planes, 0);
+  for (std::size_t i = 0; i < result.label.size(); i += kSide) {
+    if (result.label[i] != kNoPlane) ++covered[static_cast<std::size_t>(result.label[i])];
+  }
+  for (std::size_t i = 0; i < planes; ++i) {
+    result.cells[i].reserve(covered[i] * static_cast<std::size_t>(row_step) / kSide + kSide);
+  }
   std::array<std::int16_t, kSide * kSide> labels{};
   for (int row = 0; row < cells_.rows(); ++row) {
     for (int column = 0; column < cells_.columns(); ++column) {
@@ -164,7 +172,7 @@ void PixelAssigner::sum_up(std::size_t planes, int row_step, PlanePixels& result
       for (int k = 0; k < distinct; ++k) {
         const std::int16_t label = labels[static_cast<std::size_t>(k)];
         auto& of_plane = result.cells[static_cast<std::size_t>(label)];
-        of_plane.push_back({cell, sum_cell(column, row, label, row_step, result)});
+        of_plane.push_back(sum_cell(column, row, label, row_step, result));
         if (of_plane.back().sums.pixels > most) {
           most = of_plane.back().sums.pixels;
           result.cell_label[static_cast<std::size_t>(cell)] = label;
@@ -197,7 +205,7 @@ int PixelAssigner::distinct_labels(int column, int row, int row_step,
   return distinct;
 }
 
-PlaneSums PixelAssigner::sum_cell(int column, int row, std::int16_t label, int row_step,
+PlaneCell PixelAssigner::sum_cell(int column, int row, std::int16_t label, int row_step,
                                   const PlanePixels& pixels) const {
   const geometry::DepthImage& depth = frame_.depth;
   const geometry::CameraModel& camera = frame_.depth_camera;
@@ -205,48 +213,61 @@ PlaneSums PixelAssigner::sum_cell(int column, int row, std::int16_t label, int r
   const int u_end = std::min(u0 + kSide, depth.width), v_end = std::min(v0 + kSide, depth.height);
   const bool has_color = frame_.color.width == depth.width && frame_.color.height == depth.height;
 
-  PlaneSums sums;
-  // Sums of 1, w, wz, wz² times monomials of the ray (x, y); the upper triangles at the end.
+  const double per_fx = 1.0 / camera.fx;
+
+  PlaneCell result;
+  result.cell = cells_.index(column, row);
+  PlaneSums& sums = result.sums;
+  // Sums of 1, w, wz and wz² times monomials of the ray (x, y); y is the same along a row.
   double w = 0, wz = 0, wzx = 0, wzy = 0, s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
   double n = 0, nx = 0, ny = 0, nxx = 0, nxy = 0, nyy = 0;
   for (int v = v0; v < v_end; v += row_step) {
-    const double y = (v - camera.cy) / camera.fy;
+    double row_wz = 0, row_wzx = 0, row_s = 0, row_sx = 0, row_n = 0, row_nx = 0;
     for (int u = u0; u < u_end; ++u) {
       const auto pixel = static_cast<std::size_t>(v * depth.width + u);
       if (pixels.label[pixel] != label) continue;
-      const double x = (u - camera.cx) / camera.fx;
+      result.box.extend(Eigen::Vector2i(u, v));
+      const double x = (u - camera.cx) * per_fx;
       const std::size_t reading = depth.millimetres[pixel];
       const double z = 0.001 * static_cast<double>(reading);
       const double a = weight_[reading];
       const double b = a * z;
       const double c = b * z;
+      const double cx = c * x;
       w += a;
-      wz += b;
-      wzx += b * x;
-      wzy += b * y;
-      s += c;
-      sx += c * x;
-      sy += c * y;
-      sxx += c * x * x;
-      sxy += c * x * y;
-      syy += c * y * y;
-      n += 1.0;
-      nx += x;
-      ny += y;
+      row_wz += b;
+      row_wzx += b * x;
+      row_s += c;
+      row_sx += cx;
+      sxx += cx * x;
+      row_n += 1.0;
+      row_nx += x;
       nxx += x * x;
-      nxy += x * y;
-      nyy += y * y;
       if (has_color) {
         for (std::size_t k = 0; k < 3; ++k) sums.color[k] += frame_.color.rgb[3 * pixel + k];
       }
     }
+    const double y = (v - camera.cy) / camera.fy;
+    wz += row_wz;
+    wzx += row_wzx;
+    wzy += y * row_wz;
+    s += row_s;
+    sx += row_sx;
+    sy += y * row_s;
+    sxy += y * row_sx;
+    syy += y * y * row_s;
+    n += row_n;
+    nx += row_nx;
+    ny += y * row_n;
+    nxy += y * row_nx;
+    nyy += y * y * row_n;
   }
   sums.pixels = static_cast<int>(n);
   sums.moments.weight = w;
   sums.moments.first << wzx, wzy, wz;
   sums.moments.second << sxx, sxy, sx, sxy, syy, sy, sx, sy, s;
   sums.moments.noise << nxx, nxy, nx, nxy, nyy, ny, nx, ny, n;
-  return sums;
+  return result;
 }
 
 }  // namespace geomap::perception

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -31,6 +31,7 @@ struct PlaneSums {
 struct PlaneCell {
   int cell = 0;
   PlaneSums sums;
+  Eigen::AlignedBox2i box;  // of the pixels (u, v)
 };
 
 /// @brief Which pixel belongs to which plane.
@@ -67,7 +68,7 @@ class PixelAssigner {
   void sum_up(std::size_t planes, int row_step, PlanePixels& result) const;
   int distinct_labels(int column, int row, int row_step, const std::vector<std::int16_t>& label,
                       std::array<std::int16_t, DepthCells::kSide * DepthCells::kSide>& labels) const;
-  PlaneSums sum_cell(int column, int row, std::int16_t label, int row_step,
+  PlaneCell sum_cell(int column, int row, std::int16_t label, int row_step,
                      const PlanePixels& pixels) const;
 
   const geometry::RgbdFrame& frame_;

@@ -61,6 +61,17 @@ DepthTolerance tolerance_of(const RansacExtractorConfig& config, const DepthCell
   return tolerance;
 }
 
+ObservationSettings observation_settings(const RansacExtractorConfig& config) {
+  ObservationSettings settings;
+  settings.min_area = config.min_area;
+  settings.min_pixels = config.min_pixels;
+  settings.min_fill = config.min_fill;
+  settings.max_rms_ratio = config.max_rms_ratio;
+  settings.alpha = config.alpha;
+  settings.simplify_tolerance = config.simplify_tolerance;
+  return settings;
+}
+
 // Which cell is on which plane, from its voxel.
 std::vector<std::int16_t> label_cells(const VoxelCloud& cloud,
                                       const std::vector<VoxelPlane>& planes) {
@@ -78,15 +89,23 @@ std::vector<std::int16_t> label_cells(const VoxelCloud& cloud,
   return of_cell;
 }
 
+// The depth beyond which voxels and cluster tolerance grow: cells are not denser there than this share
+// of a voxel (2.5 m for a Kinect and 4 cm).
+double even_density_depth(const RansacExtractorConfig& config, const geometry::CameraModel& camera) {
+  constexpr double kCellsOfVoxel = 0.43;
+  return kCellsOfVoxel * config.voxel_size * std::min(camera.fx, camera.fy) / DepthCells::kSide;
+}
+
 std::vector<VoxelPlane> find_planes(const RansacExtractorConfig& config, const VoxelCloud& cloud,
-                                    const DepthTolerance& tolerance, std::uint64_t seed) {
+                                    double reference, const DepthTolerance& tolerance,
+                                    std::uint64_t seed) {
   RansacSettings settings;
   settings.iterations = config.ransac_iterations;
   settings.least_voxels = config.min_cluster_voxels;
   settings.max_normal_angle = radians(config.max_normal_angle_deg);
   std::vector<VoxelPlane> planes;
   for (const std::vector<int>& cluster :
-       euclidean_clusters(cloud, config.cluster_tolerance, config.full_detail_depth,
+       euclidean_clusters(cloud, config.cluster_tolerance, reference,
                           config.min_cluster_voxels)) {
     for (VoxelPlane& plane : ransac_planes(cloud, cluster, tolerance, settings, seed++)) {
       planes.push_back(std::move(plane));
@@ -117,9 +136,9 @@ ExtractedPlanes RansacExtractor::extract(const geometry::RgbdFrame& frame, std::
   const DepthTolerance tolerance = tolerance_of(config_, cells);
   result.noise = tolerance.noise;
   const auto normals = estimate_normals(cells, frame.depth_camera, tolerance);
-  const VoxelCloud cloud =
-      make_voxel_cloud(cells, normals, config_.voxel_size, config_.full_detail_depth);
-  const std::vector<VoxelPlane> found = find_planes(config_, cloud, tolerance, seed);
+  const double reference = even_density_depth(config_, frame.depth_camera);
+  const VoxelCloud cloud = make_voxel_cloud(cells, normals, config_.voxel_size, reference);
+  const std::vector<VoxelPlane> found = find_planes(config_, cloud, reference, tolerance, seed);
 
   const PixelAssigner assigner(frame, cells, normals, tolerance, config_.min_depth,
                                config_.max_depth, radians(config_.max_normal_angle_deg));
@@ -132,19 +151,14 @@ ExtractedPlanes RansacExtractor::extract(const geometry::RgbdFrame& frame, std::
   result.extraction_seconds = seconds_since(start);
 
   const Clock::time_point hull_start = Clock::now();
-  PartSettings part_settings;
-  part_settings.alpha = config_.alpha;
-  part_settings.tolerance = config_.cluster_tolerance;
-  const PartGates gates{.min_area = config_.min_area,
-                        .min_pixels = config_.min_pixels,
-                        .min_fill = config_.min_fill,
-                        .max_rms_ratio = config_.max_rms_ratio,
-                        .simplify_tolerance = config_.simplify_tolerance};
+  const LabelImage image{pixels.label, frame.depth.width};
+  const ObservationSettings settings = observation_settings(config_);
   for (std::size_t i = 0; i < fitted.planes.size(); ++i) {
     for (const PlanePart& part :
-         split_into_parts(frame.depth_camera, frame.depth.width, fitted.planes[i],
-                          static_cast<std::int16_t>(i), pixels, part_settings)) {
-      auto observation = observe(frame.depth_camera, part, tolerance, gates);
+         split_into_parts(frame.depth_camera, cells.columns(), fitted.planes[i], pixels.cells[i],
+                          config_.part_gap, config_.min_pixels)) {
+      auto observation = observe(frame.depth_camera, image, static_cast<std::int16_t>(i), part,
+                                 tolerance, settings);
       if (observation && is_wanted(config_, observation->surface.plane, up_camera)) {
         result.planes.push_back(std::move(*observation));
       }

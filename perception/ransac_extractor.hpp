@@ -19,18 +19,18 @@ struct RansacExtractorConfig {
   double noise_gate = 3.0;     // how many sigma a reading may be off its plane
   double systematic_error = 0.006;  // of a real camera, as a share of the depth
 
-  double voxel_size = 0.04;          // [m], growing with depth beyond full_detail_depth
-  double full_detail_depth = 2.5;    // [m]
+  double voxel_size = 0.04;          // [m], growing with depth where pixels become sparse
   double cluster_tolerance = 0.06;   // [m], growing likewise
   int min_cluster_voxels = 8;
   int ransac_iterations = 100;       // at most, per plane
   double max_normal_angle_deg = 25.0;  // between a point's normal and its plane's
   double max_merge_angle_deg = 8.0;    // between pieces of one surface
 
+  double part_gap = 0.03;             // between inliers of one plane; beyond, they are two planes [m]
   double alpha = 0.06;                // of the concave hull: largest circumscribed circle, radius [m]
   double simplify_tolerance = 0.01;   // of the outline, one pixel's length is added [m]
 
-  double min_area = 0.01;      // of a plane [m²]
+  double min_area = 0.015;      // of a plane [m²]
   int min_pixels = 200;         // of a plane
   double min_fill = 0.4;        // share of the outline's area that pixels cover
   double max_rms_ratio = 1.6;   // rms of a plane over what the noise model expects
@@ -49,12 +49,12 @@ struct RansacExtractorConfig {
     visitor("noise_gate", self.noise_gate);
     visitor("systematic_error", self.systematic_error);
     visitor("voxel_size", self.voxel_size);
-    visitor("full_detail_depth", self.full_detail_depth);
     visitor("cluster_tolerance", self.cluster_tolerance);
     visitor("min_cluster_voxels", self.min_cluster_voxels);
     visitor("ransac_iterations", self.ransac_iterations);
     visitor("max_normal_angle_deg", self.max_normal_angle_deg);
     visitor("max_merge_angle_deg", self.max_merge_angle_deg);
+    visitor("part_gap", self.part_gap);
     visitor("alpha", self.alpha);
     visitor("simplify_tolerance", self.simplify_tolerance);
     visitor("min_area", self.min_area);

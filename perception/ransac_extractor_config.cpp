@@ -37,12 +37,12 @@ std::vector<std::string> RansacExtractorConfig::validate() const {
   check.between("noise_gate", noise_gate, 1.0, 10.0);
   check.between("systematic_error", systematic_error, 0.0, 0.1);
   check.between("voxel_size", voxel_size, 0.005, 0.5);
-  check.between("full_detail_depth", full_detail_depth, 0.1, 65.0);
   check.between("cluster_tolerance", cluster_tolerance, 0.005, 1.0);
   check.between("min_cluster_voxels", min_cluster_voxels, 3, 1e6);
   check.between("ransac_iterations", ransac_iterations, 1, 1e6);
   check.between("max_normal_angle_deg", max_normal_angle_deg, 1.0, 60.0);
   check.between("max_merge_angle_deg", max_merge_angle_deg, 0.0, 45.0);
+  check.between("part_gap", part_gap, 0.0, 1.0);
   check.between("alpha", alpha, 0.01, 1.0);
   check.between("simplify_tolerance", simplify_tolerance, 0.0, 0.5);
   check.between("min_area", min_area, 0.0, 100.0);

@@ -184,6 +184,12 @@ TEST(FromRings, FlatPointLikeAndEmptyRingsLeaveNothing) {
   EXPECT_TRUE(both_rules_leave_nothing({box_ring(0, 0, 9, 11)})) << "below 1 mm²";
 }
 
+TEST(FromRings, AHoleBelowASquareMillimetreIsFilled) {
+  const Ring plate = box_ring(0, 0, 1000, 1000);
+  EXPECT_EQ(polygon_of({plate, box_ring(500, 500, 509, 511)}), polygon_of({plate}));
+  EXPECT_EQ(polygon_of({plate, box_ring(500, 500, 510, 510)}).parts[0].holes.size(), 1U);
+}
+
 TEST(FromRings, ABowTieBecomesTwoTriangles) {
   const Polygon tie = polygon_of({{{0, 0}, {1000, 1000}, {1000, 0}, {0, 1000}}});
   expect_valid(tie, "bow tie");

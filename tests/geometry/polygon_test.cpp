@@ -229,7 +229,17 @@ TEST(FindFault, NamesEveryBreachOfTheInvariant) {
   EXPECT_NE(fault({part({{0, 0}, {100, 0}, {50, 50}, {100, 100}, {0, 100}}),
                    part({{50, 50}, {20, 60}, {20, 40}})}),
             "")
-      << "crossing in a common vertex";
+      << "touching, but inside";
+}
+
+TEST(FindFault, SeesRingsThatCrossInCommonPointsOnly) {
+  // The second ring leaves the box and comes back through two points of its border.
+  const Polygon box_and = {
+      {{box_ring(0, 0, 100, 100), {}}, {{{100, 50}, {150, 150}, {50, 100}, {50, 50}}, {}}}};
+  EXPECT_EQ(find_fault(box_and), "two rings cross or share a stretch");
+  Polygon with_vertices = box_and;
+  with_vertices.parts[0].outer = {{0, 0}, {100, 0}, {100, 50}, {100, 100}, {50, 100}, {0, 100}};
+  EXPECT_EQ(find_fault(with_vertices), "two rings cross or share a stretch");
 }
 
 TEST(Canonical, MakesEqualAreasEqual) {

@@ -33,6 +33,18 @@ TEST_F(Import, EveryFrameComesBackFromTheLog) {
   }
 }
 
+TEST_F(Import, ColorThatIsNoJpegIsEncodedOnTheWay) {
+  std::filesystem::remove(file(1, ".color.jpg"));
+  const geometry::ColorImage color = testing::some_color(1);
+  testing::write_color_png(file(1, ".color.png"), color);
+  const ImportedLog log = imported({});
+  const geometry::ColorImage& read = log.frames[1].color;
+  ASSERT_EQ(read.rgb.size(), color.rgb.size());
+  double error = 0.0;
+  for (std::size_t i = 0; i < read.rgb.size(); ++i) error += std::abs(read.rgb[i] - color.rgb[i]);
+  EXPECT_LT(error / static_cast<double>(read.rgb.size()), 3.0);
+}
+
 TEST_F(Import, TheSummaryCountsFramesTimePathAndBytes) {
   const ImportSummary summary = import_with({});
   EXPECT_EQ(summary.frames, 5U);
@@ -75,8 +87,10 @@ TEST_F(Import, AnUnreadableFrameEndsTheImportWithItsName) {
 TEST_F(Import, UnreadableFramesCanBeSkippedAndAreCounted) {
   std::filesystem::remove(file(1, ".depth.png"));
   auto jpeg = testing::file_bytes(file(3, ".color.jpg"));
-  jpeg[jpeg.size() / 3] ^= 0xff;  // inside its tables
-  std::fill(jpeg.begin() + 20, jpeg.begin() + 60, std::uint8_t{1});
+  const std::vector<std::uint8_t> huffman_table = {0xff, 0xc4};
+  const auto table =
+      std::search(jpeg.begin(), jpeg.end(), huffman_table.begin(), huffman_table.end());
+  std::fill(table + 5, table + 21, std::uint8_t{0xff});  // more codes than bits can tell apart
   testing::write_bytes(file(3, ".color.jpg"), jpeg);
   ImportSettings settings;
   settings.skip_bad = true;
@@ -85,6 +99,7 @@ TEST_F(Import, UnreadableFramesCanBeSkippedAndAreCounted) {
   EXPECT_EQ(summary.frames_bad, 2U);
   EXPECT_THAT(to_string(summary), HasSubstr("frame-000001.depth.png: no such file"));
   const ImportedLog log = read_log(out_);
+  ASSERT_EQ(log.frames.size(), 3U);
   EXPECT_EQ(log.frames.back().sequence, 2);
   EXPECT_EQ(log.frames.back().utime, drivers::seven_scenes_utime(4));
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <utility>
 
 namespace geomap::testing {
@@ -59,6 +60,22 @@ mapping::MapSnapshot example_map(const Eigen::Vector3d& origin) {
                    {{{rectangle_ring(-0.3, -0.25, 0.3, 0.25), {}}}});
   board.color = {};
   return {17, "5eed", {wall, table, board, floor}};
+}
+
+mapping::MapSnapshot crowd(int features) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  mapping::MapSnapshot map;
+  for (int i = 0; i < features; ++i) {
+    const Eigen::Vector3d normal(unit(random), unit(random), unit(random));
+    const double half = 0.3 + 0.2 * unit(random);
+    map.features.push_back(
+        make_feature({.id = {i, 0},
+                      .origin = 5.0 * Eigen::Vector3d(unit(random), unit(random), unit(random)),
+                      .normal = normal},
+                     {{{rectangle_ring(-half, -half, half, half), {}}}}));
+  }
+  return map;
 }
 
 bool has_program(const std::string& name) { return run_quietly("command -v " + name) == 0; }

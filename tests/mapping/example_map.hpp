@@ -29,6 +29,9 @@ mapping::MapFeature make_feature(const DrawnFeature& drawn, geometry::Polygon po
 /// by 45°, seen without colour. Areas: 12, 0.84, 5, 0.3 m².
 mapping::MapSnapshot example_map(const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
+/// @brief Squares of 0.2 to 1 m side in all orientations, in a cube of 10 m.
+mapping::MapSnapshot crowd(int features);
+
 /// @brief True when the program is there to be run.
 bool has_program(const std::string& name);
 /// @brief Exit status of a shell command; its output is dropped.

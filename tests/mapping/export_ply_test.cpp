@@ -28,7 +28,8 @@ struct PclMesh {
     export_map(map, path, {.ascii = ascii, .svg = {}});
     pcl::PolygonMesh mesh;
     EXPECT_EQ(pcl::io::loadPLYFile(path.string(), mesh), 0);
-    pcl::fromPCLPointCloud2(mesh.cloud, points);
+    // PCL's conversion takes the address of the first point, which an empty cloud does not have.
+    if (mesh.cloud.width > 0) pcl::fromPCLPointCloud2(mesh.cloud, points);
     faces = mesh.polygons;
   }
 

@@ -4,23 +4,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <random>
+#include <sstream>
 
 #include "mapping/example_map.hpp"
 #include "mapping/export.hpp"
 #include "mapping/export_svg_canvas.hpp"
-#include "mapping/export_svg_label.hpp"
 
 namespace geomap::mapping {
 namespace {
 
+using geomap::testing::crowd;
 using geomap::testing::example_map;
 using geomap::testing::make_feature;
 using geomap::testing::rectangle_ring;
-using geomap::testing::reversed;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -32,6 +29,25 @@ std::size_t count(const std::string& text, const std::string& word) {
   return number;
 }
 
+double number_after(const std::string& text, const std::string& key) {
+  return std::stod(text.substr(text.find(key) + key.size()));
+}
+
+// The labels "#N" of a sheet and the boxes their texts take.
+std::vector<std::pair<std::string, Eigen::AlignedBox2d>> label_boxes(const std::string& svg) {
+  std::vector<std::pair<std::string, Eigen::AlignedBox2d>> boxes;
+  std::istringstream lines(svg);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find(">#");
+    if (!line.starts_with("<text ") || at == std::string::npos) continue;
+    const std::string text = line.substr(at + 1, line.find('<', at) - at - 1);
+    const Eigen::Vector2d middle(number_after(line, "x=\""), number_after(line, "y=\""));
+    const Eigen::Vector2d half(text_width(text, 12.0) / 2.0, 4.0);
+    boxes.emplace_back(text, Eigen::AlignedBox2d(middle - half, middle + half));
+  }
+  return boxes;
+}
+
 // Bytes of the picture that librsvg, an independent reader, makes of a sheet; nothing when it
 // refuses.
 std::size_t rendered_size(const MapSnapshot& map, const SvgOptions& options = {}) {
@@ -41,23 +57,6 @@ std::size_t rendered_size(const MapSnapshot& map, const SvgOptions& options = {}
   const int status = geomap::testing::run_quietly("rsvg-convert '" + (folder / "map.svg").string() +
                                                   "' -o '" + picture + "'");
   return status == 0 ? std::filesystem::file_size(picture) : 0;
-}
-
-// A crowd of rectangles in all orientations.
-MapSnapshot crowd(int features) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  MapSnapshot map;
-  for (int i = 0; i < features; ++i) {
-    const Eigen::Vector3d normal(unit(random), unit(random), unit(random));
-    const double half = 0.3 + 0.2 * unit(random);
-    map.features.push_back(
-        make_feature({.id = {i, 0},
-                      .origin = 5.0 * Eigen::Vector3d(unit(random), unit(random), unit(random)),
-                      .normal = normal},
-                     {{{rectangle_ring(-half, -half, half, half), {}}}}));
-  }
-  return map;
 }
 
 TEST(ExportSvg, LibrsvgRendersEverySheet) {
@@ -108,6 +107,50 @@ TEST(ExportSvg, FeaturesUnderTwoHundredSquareCentimetresStayUnlabelled) {
   };
   EXPECT_THAT(sheet(0.19), Not(HasSubstr(">#1<")));
   EXPECT_THAT(sheet(0.21), HasSubstr(">#1<"));
+}
+
+TEST(ExportSvg, LabelsDoNotLieOnEachOther) {
+  const auto boxes = label_boxes(to_svg(crowd(300)));
+  ASSERT_GT(boxes.size(), 100U);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_FALSE(boxes[i].second.intersects(boxes[j].second))
+          << boxes[i].first << " and " << boxes[j].first;
+    }
+  }
+}
+
+TEST(ExportSvg, ALabelStandsOnThePartOfItsFeatureThatIsSeen) {
+  MapSnapshot map;
+  map.features.push_back(make_feature({.id = {1, 0}}, {{{rectangle_ring(-2, -1, 2, 1), {}}}}));
+  map.features.push_back(
+      make_feature({.id = {2, 0}, .origin = {0, 0, 1}}, {{{rectangle_ring(-2, -1, 1, 1), {}}}}));
+  map.features.push_back(make_feature({.id = {3, 0}, .origin = {0, 0, 0.5}},
+                                      {{{rectangle_ring(-1.9, -0.9, 0.9, 0.9), {}}}}));
+  SvgOptions top;
+  top.views = {SvgView::kTop};
+  const auto boxes = label_boxes(to_svg(map, top));
+  ASSERT_EQ(boxes.size(), 2U);  // nothing of #3 is seen from above
+  EXPECT_EQ(boxes[0].first, "#1");
+  EXPECT_EQ(boxes[1].first, "#2");
+  EXPECT_GT(boxes[0].second.min().x(), boxes[1].second.max().x());
+}
+
+TEST(ExportSvg, ALabelDoesNotHideAFaceThatIsSmallerThanItself) {
+  MapSnapshot map;
+  map.features.push_back(make_feature({.id = {1, 0}}, {{{rectangle_ring(-1, -1, 1, 1), {}}}}));
+  map.features[0].label = "in the way";
+  map.features.push_back(make_feature({.id = {2, 0}, .origin = {0.0, 0.0, 0.1}},
+                                      {{{rectangle_ring(0.011, -0.003, 0.017, 0.003), {}}}}));
+  SvgOptions top;
+  top.views = {SvgView::kTop};
+  const std::string svg = to_svg(map, top);
+  const auto boxes = label_boxes(svg);
+  ASSERT_EQ(boxes.size(), 1U);
+  const std::string small = svg.substr(svg.rfind("<path d=\"M"));  // painted last
+  const double x = number_after(small, "M");
+  const double y = number_after(small, ",");
+  EXPECT_FALSE(boxes[0].second.contains(Eigen::Vector2d(x, y)));
 }
 
 TEST(ExportSvg, HighlightedFeaturesAreOutlinedAgainAndTheOthersPale) {
@@ -163,105 +206,6 @@ TEST(ExportSvg, NoViewsOrNoSizeAreRefused) {
   SvgOptions flat;
   flat.max_height = std::nan("");
   EXPECT_THROW(to_svg(example_map(), flat), std::invalid_argument);
-}
-
-TEST(SvgView, TheFrontViewFacesTheLargestUprightFeature) {
-  MapSnapshot map = example_map();
-  EXPECT_NEAR(front_heading(map.features), std::numbers::pi / 2.0, 1e-12);
-  map.features.push_back(make_feature(
-      {.id = {9000, 0}, .origin = {-3, 0, 1}, .normal = {1, 0, 0}, .x_axis = {0, 1, 0}},
-      {{{rectangle_ring(-3, -1, 3, 1), {}}}}));
-  EXPECT_NEAR(std::abs(front_heading(map.features)), std::numbers::pi, 1e-12);
-  EXPECT_NEAR(front_heading({}), std::numbers::pi / 2.0, 1e-12);
-}
-
-TEST(SvgView, TheTopViewHasXRightAndYUpWhenTheFrontLooksAlongY) {
-  const ViewAxes axes = view_axes(SvgView::kTop, std::numbers::pi / 2.0, 0.5);
-  EXPECT_LT((axes.right - Eigen::Vector3d::UnitX()).norm(), 1e-12);
-  EXPECT_LT((axes.up - Eigen::Vector3d::UnitY()).norm(), 1e-12);
-  EXPECT_LT((axes.forward + Eigen::Vector3d::UnitZ()).norm(), 1e-12);
-}
-
-TEST(SvgView, AxesAreRightHandedUnitVectors) {
-  for (const SvgView view : {SvgView::kTop, SvgView::kFront, SvgView::kOblique}) {
-    const ViewAxes axes = view_axes(view, 0.7, -0.4);
-    EXPECT_LT((axes.right.cross(axes.forward) - axes.up).norm(), 1e-12);
-    EXPECT_NEAR(axes.right.norm() * axes.up.norm() * axes.forward.norm(), 1.0, 1e-12);
-  }
-}
-
-TEST(SvgView, TheObliqueViewTurnsToTheSideThatShowsMore) {
-  const double ahead = std::numbers::pi / 2.0;
-  const auto wall = [](double nx) {
-    return make_feature({.id = {1, 0}, .normal = {nx, 0, 0}, .x_axis = {0, 1, 0}},
-                        {{{rectangle_ring(-1, -1, 1, 1), {}}}});
-  };
-  const MapFeature on_the_left = wall(1.0);
-  const MapFeature on_the_right = wall(-1.0);
-  EXPECT_GT(oblique_turn({&on_the_left, 1}, ahead), 0.0);
-  EXPECT_LT(oblique_turn({&on_the_right, 1}, ahead), 0.0);
-}
-
-std::vector<std::int64_t> painted_ids(const MapSnapshot& map, const ViewAxes& axes) {
-  const auto projected = project_features(map.features, axes);
-  std::vector<std::int64_t> ids;
-  for (const std::size_t i : paint_order(projected)) {
-    ids.push_back(projected[i].feature->id.keyframe);
-  }
-  return ids;
-}
-
-TEST(SvgView, ASmallTableIsPaintedOverTheFloorThoughTheFloorsMiddleIsNearer) {
-  MapSnapshot map;
-  // Far at the back of a long floor: its depth alone would put it behind.
-  map.features.push_back(make_feature({.id = {1, 0}, .origin = {0, 4, 0.7}},
-                                      {{{rectangle_ring(-0.5, -0.5, 0.5, 0.5), {}}}}));
-  map.features.push_back(make_feature({.id = {2, 0}}, {{{rectangle_ring(-2, -5, 2, 5), {}}}}));
-  const ViewAxes axes = view_axes(SvgView::kOblique, std::numbers::pi / 2.0, 0.0);
-  EXPECT_THAT(painted_ids(map, axes), ::testing::ElementsAre(2, 1));
-}
-
-TEST(SvgView, EveryFeatureOfATangleIsPaintedOnce) {
-  const MapSnapshot tangle = crowd(300);  // full of features that cover each other in circles
-  const ViewAxes axes = view_axes(SvgView::kTop, 0.0, 0.0);
-  std::vector<std::int64_t> ids = painted_ids(tangle, axes);
-  std::sort(ids.begin(), ids.end());
-  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(ids.at(i), static_cast<std::int64_t>(i));
-}
-
-TEST(SvgView, HorizontalFeaturesArePaintedFromTheLowestUpInTheTopView) {
-  MapSnapshot map;
-  for (const int height : {3, 0, 4, 1, 2}) {
-    map.features.push_back(make_feature({.id = {height, 0}, .origin = {0.0, 0.0, 0.2 * height}},
-                                        {{{rectangle_ring(-1, -1, 1, 1), {}}}}));
-  }
-  const ViewAxes axes = view_axes(SvgView::kTop, 0.0, 0.0);
-  EXPECT_THAT(painted_ids(map, axes), ::testing::ElementsAre(0, 1, 2, 3, 4));
-}
-
-TEST(SvgLabel, SpotsOfARingShapedAreaLieOnItAndNotInItsHole) {
-  const PictureRings frame = {{{0, 0}, {100, 0}, {100, 80}, {0, 80}},
-                              {{20, 20}, {20, 60}, {70, 60}, {70, 20}}};
-  const std::vector<LabelSpot> spots = label_spots(frame);
-  ASSERT_FALSE(spots.empty());
-  // The right-hand bar, 30 wide, is the roomiest; a corner's bisector gives a little more.
-  EXPECT_GT(spots.front().clearance, 14.0);
-  for (const LabelSpot& spot : spots) {
-    const bool in_hole =
-        spot.point.x() > 20 && spot.point.x() < 70 && spot.point.y() > 20 && spot.point.y() < 60;
-    EXPECT_FALSE(in_hole);
-    EXPECT_NEAR(spot.clearance, clearance(frame, spot.point), 1e-12);
-  }
-}
-
-TEST(SvgLabel, AmpleRoomPrefersTheMiddle) {
-  const PictureRings sheet = {{{0, 0}, {900, 0}, {900, 200}, {0, 200}}};
-  EXPECT_LT((label_spots(sheet).front().point - Eigen::Vector2d(450, 100)).norm(), 1.0);
-}
-
-TEST(SvgLabel, ALineOffersNoSpot) {
-  EXPECT_TRUE(label_spots({{{0, 0}, {50, 0}, {100, 0}}}).empty());
-  EXPECT_TRUE(label_spots({}).empty());
 }
 
 }  // namespace

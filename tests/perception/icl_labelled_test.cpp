@@ -2,30 +2,33 @@
 // A noise-free living room whose planes are labelled per pixel.
 #include <fstream>
 #include <map>
-#include <set>
 
 #include "drivers/image_file.hpp"
-#include "geometry/polygon.hpp"
+#include "perception/outline_image.hpp"
 #include "perception/ransac_extractor.hpp"
 #include "support/recordings.hpp"
 
 namespace geomap::perception {
 namespace {
 
+using testing::common_pixels;
+using testing::count_pixels;
+
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
-constexpr int kLeastPixels = 5000;
+constexpr std::size_t kLeastPixels = 5000;
 
+// Labels per pixel, empty unless the file is what it should be.
 std::vector<std::uint8_t> read_labels(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string magic;
   int width = 0, height = 0, largest = 0;
   file >> magic >> width >> height >> largest;
   file.get();
+  if (magic != "P5" || width != kWidth || height != kHeight) return {};
   std::vector<std::uint8_t> labels(static_cast<std::size_t>(width * height));
   file.read(reinterpret_cast<char*>(labels.data()), static_cast<std::streamsize>(labels.size()));
-  return magic == "P5" && width == kWidth && height == kHeight && file ? labels
-                                                                       : std::vector<std::uint8_t>{};
+  return file ? labels : std::vector<std::uint8_t>{};
 }
 
 // Coplanar labels are one plane: {1, 16} and {8, 9, 17}.
@@ -35,37 +38,16 @@ int plane_of_label(int label) {
   return found == first.end() ? label : found->second;
 }
 
-std::map<int, std::set<int>> pixels_by_plane(const std::vector<std::uint8_t>& labels) {
-  std::map<int, std::set<int>> pixels;
+std::map<int, std::vector<bool>> large_planes(const std::vector<std::uint8_t>& labels) {
+  std::map<int, std::vector<bool>> planes;
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels[i] != 0) pixels[plane_of_label(labels[i])].insert(static_cast<int>(i));
+    if (labels[i] == 0) continue;
+    auto& image = planes[plane_of_label(labels[i])];
+    image.resize(labels.size());
+    image[i] = true;
   }
-  std::erase_if(pixels, [](const auto& entry) { return entry.second.size() < kLeastPixels; });
-  return pixels;
-}
-
-// The image of an outline: all pixels whose rays meet the polygon.
-std::set<int> pixels_inside(const geometry::PlanarPolygon& surface,
-                            const geometry::CameraModel& camera) {
-  std::set<int> inside;
-  const auto box = geometry::bounding_box(surface.polygon);
-  const Eigen::Isometry3d T_plane_camera = surface.frame.T_plane_parent();
-  for (int v = 0; v < kHeight; ++v) {
-    for (int u = 0; u < kWidth; ++u) {
-      const Eigen::Vector3d ray = camera.ray(u, v);
-      const double slope = surface.plane.normal.dot(ray);
-      if (slope >= -1e-6) continue;
-      const Eigen::Vector3d point = -surface.plane.d / slope * ray;
-      const Eigen::Vector2d at = (T_plane_camera * point).head<2>();
-      if (box.contains(at) && geometry::contains(surface.polygon, at)) inside.insert(v * kWidth + u);
-    }
-  }
-  return inside;
-}
-
-std::size_t common(const std::set<int>& a, const std::set<int>& b) {
-  return static_cast<std::size_t>(
-      std::count_if(a.begin(), a.end(), [&b](int pixel) { return b.count(pixel) > 0; }));
+  std::erase_if(planes, [](const auto& entry) { return count_pixels(entry.second) < kLeastPixels; });
+  return planes;
 }
 
 TEST(IclLabelled, EveryLargeLabelledPlaneIsFoundWithItsOutline) {
@@ -75,23 +57,27 @@ TEST(IclLabelled, EveryLargeLabelledPlaneIsFoundWithItsOutline) {
   frame.depth_camera = {kWidth, kHeight, 481.2, 480.0, 319.5, 239.5};
   const std::vector<std::uint8_t> labels = read_labels(folder / "labels.pgm");
   ASSERT_FALSE(labels.empty());
-  const auto truth = pixels_by_plane(labels);
-  ASSERT_GE(truth.size(), 5u);
+  const auto truth = large_planes(labels);
+  ASSERT_EQ(truth.size(), 7u);
 
-  const ExtractedPlanes extracted = RansacExtractor().extract(frame, 1, std::nullopt);
-  std::map<int, std::set<int>> found;  // by labelled plane: outlines that lie mostly on it
-  for (const auto& plane : extracted.planes) {
-    const std::set<int> inside = pixels_inside(plane.surface, frame.depth_camera);
-    for (const auto& [label, pixels] : truth) {
-      if (2 * common(inside, pixels) > inside.size()) found[label].insert(inside.begin(), inside.end());
+  // Per labelled plane, the outlines that lie mostly on it: the cushions are curved by millimetres, and
+  // may come as several planes.
+  std::map<int, std::vector<bool>> found;
+  for (const auto& plane : RansacExtractor().extract(frame, 1, std::nullopt).planes) {
+    const std::vector<bool> outline = testing::outline_image(plane.surface, frame.depth_camera);
+    for (const auto& [label, image] : truth) {
+      if (2 * common_pixels(outline, image) < count_pixels(outline)) continue;
+      auto& joint = found[label];
+      joint.resize(outline.size());
+      for (std::size_t i = 0; i < outline.size(); ++i) joint[i] = joint[i] || outline[i];
     }
   }
-  for (const auto& [label, pixels] : truth) {
-    const double both = static_cast<double>(common(found[label], pixels));
-    const double either = static_cast<double>(found[label].size() + pixels.size()) - both;
-    EXPECT_GT(both / either, 0.85) << "label " << label << " with " << pixels.size() << " pixels";
-    RecordProperty("iou_of_label_" + std::to_string(label), std::to_string(both / either));
-    if (getenv("SHOW")) printf("label %d pixels %zu iou %.3f\n", label, pixels.size(), both/either);
+  for (const auto& [label, image] : truth) {
+    ASSERT_TRUE(found.count(label)) << "label " << label << " has no plane";
+    const double ratio = testing::overlap_ratio(found[label], image);
+    RecordProperty("iou_of_label_" + std::to_string(label), std::to_string(ratio));
+    const bool is_cushion = count_pixels(image) < 20000;  // bulging by up to 8 mm
+    EXPECT_GT(ratio, is_cushion ? 0.75 : 0.93) << "label " << label;
   }
 }
 

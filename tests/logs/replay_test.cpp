@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "logs/replay.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "logs/synthetic_log.hpp"
+#include "logs/trajectory_file.hpp"
+#include "mapping/map_hash.hpp"
+#include "mapping/map_journal.hpp"
+#include "messaging/channels.hpp"
+#include "messaging/config_checks.hpp"
+#include "messaging/convert_geometry.hpp"
+#include "messaging/encode.hpp"
+#include "messaging/safe_decode.hpp"
+#include "messaging/temporary_folder.hpp"
+#include "support/plane_renderer.hpp"
+
+namespace geomap::logs {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Replay : public testing::TemporaryFolder {
+ protected:
+  ReplayResult replay_events(const std::vector<messaging::LogEvent>& events,
+                             ReplayOptions options = {}) {
+    options.log = path("in.lcmlog");
+    options.output = path("out");
+    testing::write_log(options.log, events);
+    return replay(options, messaging::Config::load());
+  }
+};
+
+TEST_F(Replay, FindsTheRectanglesOfASmallRoomOnceEachWhereTheyAre) {
+  const ReplayResult result = replay_events(testing::synthetic_log(20));
+  const auto& features = result.report.map.features;
+  const auto room = testing::small_room();
+  EXPECT_EQ(features.size(), room.size());
+  for (const testing::Rectangle& rectangle : room) {
+    int found = 0;
+    for (const mapping::MapFeature& feature : features) {
+      const geometry::Plane truth = rectangle.plane_seen_from({0, -1.5, 1.4});
+      found += geometry::angle_between(feature.surface.plane, truth) < 0.005 &&
+               std::abs(feature.surface.plane.signed_distance(rectangle.center)) < 0.005;
+    }
+    EXPECT_EQ(found, 1) << rectangle.name;
+  }
+}
+
+TEST_F(Replay, WritesEveryResultItPromises) {
+  ReplayOptions options;
+  options.pictures_every = 2;
+  options.log_out = path("derived.lcmlog");
+  const ReplayResult result = replay_events(testing::synthetic_log(20), options);
+  for (const char* name : {"map.lcmlog", "map.svg", "point_map.ply", "trajectory.tum",
+                           "trajectory_all.tum", "report.json", "report.md", "config_used.yaml",
+                           "pictures/keyframe_0001.svg", "pictures/keyframe_0002.svg"}) {
+    EXPECT_TRUE(fs::exists(fs::path(path("out")) / name)) << name;
+  }
+  const auto json = nlohmann::json::parse(read_file(path("out/report.json")));
+  EXPECT_EQ(json["frames"], 20);
+  EXPECT_EQ(json["keyframes"], result.report.keyframes.size());
+  EXPECT_EQ(json["map_hash"], result.report.map.hash);
+  EXPECT_EQ(json["bytes"]["raw"], result.report.keyframes.size() * 320 * 240 * 12);
+  EXPECT_EQ(json["bytes"]["map"],
+            12 * json["map_vertices"].get<int>() + 16 * json["map_features"].get<int>());
+  for (const char* stage : {"decode", "registration", "extraction", "hull", "merging", "total"}) {
+    for (const char* key : {"mean", "p50", "p95", "max"}) {
+      EXPECT_GE(json["stage_seconds"][stage][key].get<double>(), 0.0) << stage << " " << key;
+    }
+  }
+  EXPECT_THAT(read_file(path("out/report.md")), ::testing::HasSubstr("map.svg"));
+}
+
+TEST_F(Replay, TheSavedMapIsTheMapOfTheReport) {
+  const ReplayResult result = replay_events(testing::synthetic_log(12));
+  const mapping::SavedMap saved = mapping::load_map(path("out/map.lcmlog"));
+  EXPECT_EQ(mapping::map_hash(saved.features), result.report.map.hash);
+}
+
+TEST_F(Replay, ThePlanesOfItsDerivedLogFoldToTheSameMap) {
+  ReplayOptions options;
+  options.log_out = path("derived.lcmlog");
+  const ReplayResult result = replay_events(testing::synthetic_log(20, 0.005), options);
+  mapping::GeometricMap map(mapping::MergeConfig{}, mapping::HistoryConfig{});
+  messaging::LogReader reader(options.log_out);
+  while (const auto event = reader.next()) {
+    if (event->channel != messaging::channels::kPlanes) continue;
+    const auto message =
+        messaging::safe_decode<geomap::plane_set_t>(event->data.data(), event->data.size());
+    auto planes = messaging::from_message(message.message.value());
+    ASSERT_TRUE(planes);
+    auto observation = std::make_shared<mapping::Observation>();
+    observation->keyframe = planes->keyframe;
+    observation->T_world_camera = planes->T_world_camera;
+    observation->planes = std::move(planes->planes);
+    map.apply(observation);
+  }
+  EXPECT_EQ(mapping::map_hash(map.features()), result.report.map.hash);
+}
+
+TEST_F(Replay, ThreadsAndPassesDoNotChangeTheMap) {
+  const auto events = testing::synthetic_log(20, 0.01);
+  const std::string hash = replay_events(events).report.map.hash;
+  ReplayOptions options;
+  options.threads = 4;
+  options.passes = 2;
+  const ReplayResult again = replay_events(events, options);
+  EXPECT_EQ(again.report.map.hash, hash);
+  EXPECT_EQ(again.report.times.size(), 2 * again.report.keyframes.size());
+}
+
+TEST_F(Replay, WithoutPosesEveryFrameIsRejectedAndSaysWhy) {
+  auto events = testing::synthetic_log(5);
+  std::erase_if(events, [](const auto& event) { return event.channel == "POSE"; });
+  const ReplayResult result = replay_events(events);
+  EXPECT_EQ(result.report.rejected.at("no_pose"), 5);
+  EXPECT_TRUE(result.report.map.features.empty());
+}
+
+TEST_F(Replay, ALogWithoutFramesOrWithoutAFileIsAClearError) {
+  auto events = testing::synthetic_log(2);
+  std::erase_if(events, [](const auto& event) { return event.channel == "RGBD_FRAME"; });
+  try {
+    replay_events(events);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("RGBD_FRAME"));
+  }
+  ReplayOptions options;
+  options.log = path("missing.lcmlog");
+  options.output = path("out");
+  EXPECT_THROW(replay(options, messaging::Config::load()), std::runtime_error);
+}
+
+TEST_F(Replay, TrajectoriesAreInTheFormatOfTheTumBenchmark) {
+  Eigen::Isometry3d T(Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitZ()));
+  T.translation() = Eigen::Vector3d(1, 2, 3);
+  write_trajectory(path("t.tum"), {{1'000'000'033'333, T}});
+  EXPECT_THAT(read_file(path("t.tum")),
+              ::testing::HasSubstr("\n1000000.033333 1.000000000 2.000000000 3.000000000 "
+                                   "0.000000000 0.000000000 0.707106781 0.707106781\n"));
+}
+
+TEST(PipelineConfig, TheDefaultFileHoldsTheDefaultsOfTheClassesAndNothingElse) {
+  testing::ConfigChecks checks;
+  checks.expect_defaults<perception::PriorConfig>("prior");
+  checks.expect_defaults<perception::KeyframeConfig>("keyframes");
+  checks.expect_defaults<perception::TrustPriorConfig>("registration");
+  checks.expect_defaults<perception::PointMapConfig>("point_map");
+  checks.expect_defaults<perception::RansacExtractorConfig>("ransac");
+  checks.expect_defaults<mapping::MergeConfig>("merge");
+  checks.expect_defaults<mapping::HistoryConfig>("history");
+  EXPECT_THAT(checks.differences(), ::testing::IsEmpty());
+  EXPECT_THAT(checks.unread_keys(), ::testing::Each(::testing::StartsWith("driver_camera.")));
+}
+
+TEST(StageTimes, PercentilesAreThoseOfTheNearestRank) {
+  std::vector<double> values;
+  for (int i = 100; i >= 1; --i) values.push_back(i);
+  const Summary s = summarize(values);
+  EXPECT_DOUBLE_EQ(s.mean, 50.5);
+  EXPECT_DOUBLE_EQ(s.p50, 50);
+  EXPECT_DOUBLE_EQ(s.p95, 95);
+  EXPECT_DOUBLE_EQ(s.max, 100);
+  EXPECT_DOUBLE_EQ(summarize({}).max, 0);
+}
+
+}  // namespace
+}  // namespace geomap::logs
