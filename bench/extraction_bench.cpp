@@ -26,12 +26,15 @@ std::size_t extract(const RgbdFrame& frame) {
   return extractor.extract(frame, static_cast<std::uint64_t>(frame.utime), {}).planes.size();
 }
 
-std::size_t extract_by_pcl(const RgbdFrame& frame) { return geomap::bench::pcl_recipe(frame).planes; }
+std::size_t extract_by_pcl(const RgbdFrame& frame) {
+  return geomap::bench::pcl_recipe(frame).planes;
+}
 
 double milliseconds(std::size_t (*run)(const RgbdFrame&), const RgbdFrame& frame) {
   const auto start = std::chrono::steady_clock::now();
   benchmark::DoNotOptimize(run(frame));
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
 }
 
 double quantile(std::vector<double> values, double share) {
@@ -40,8 +43,8 @@ double quantile(std::vector<double> values, double share) {
   return values[at];
 }
 
-// Both take turns on every frame, so that whatever else the machine does hits them alike. One iteration
-// goes over all frames once.
+// Both take turns on every frame, so that whatever else the machine does hits them alike. One
+// iteration goes over all frames once.
 void extraction_beside_pcl(benchmark::State& state) {
   if (frames().empty()) {
     state.SkipWithError("skipped: no recording 'redkitchen' under GEOMAP_DATA");

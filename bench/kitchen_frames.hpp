@@ -7,8 +7,8 @@
 
 namespace geomap::bench {
 
-/// @brief Every `step`-th depth frame of the recorded kitchen under GEOMAP_DATA, decoded; empty where the
-/// recording is missing.
+/// @brief Every `step`-th depth frame of the recorded kitchen under GEOMAP_DATA, decoded; empty
+/// where the recording is missing.
 std::vector<geometry::RgbdFrame> load_kitchen_frames(int step);
 
 }  // namespace geomap::bench

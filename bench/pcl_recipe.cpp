@@ -19,7 +19,7 @@ namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
-constexpr float kLeaf = 0.04F;            // [m]
+constexpr float kLeaf = 0.04F;              // [m]
 constexpr double kClusterTolerance = 0.06;  // [m]
 constexpr int kLeastPoints = 50;
 constexpr int kIterations = 100;
@@ -80,8 +80,7 @@ void add_hulls(const Cloud::Ptr& inliers, const pcl::ModelCoefficients& plane,
   pcl::ProjectInliers<pcl::PointXYZ> projection;
   projection.setModelType(pcl::SACMODEL_PLANE);
   projection.setInputCloud(inliers);
-  projection.setModelCoefficients(
-      pcl::ModelCoefficients::Ptr(new pcl::ModelCoefficients(plane)));
+  projection.setModelCoefficients(pcl::ModelCoefficients::Ptr(new pcl::ModelCoefficients(plane)));
   projection.filter(*projected);
   for (const pcl::PointIndices& part : clusters_of(projected)) {
     Cloud hull;

@@ -34,6 +34,7 @@ void GrowthPictures::write(const std::filesystem::path& folder) const {
   options.views = {mapping::SvgView::kOblique};
   const mapping::MapSnapshot last = snapshot(moments_.back().revision, moments_.back().features);
   options.heading = mapping::front_heading(last.features);
+  options.turn = mapping::oblique_turn(last.features, *options.heading);
   options.extent.emplace();
   for (const mapping::MapFeature& feature : last.features) {
     options.extent->extend(feature.surface.bounding_box());

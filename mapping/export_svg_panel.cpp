@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "mapping/export_svg_axes.hpp"
 #include "mapping/export_svg_label.hpp"
 #include "mapping/export_svg_style.hpp"
 
@@ -185,38 +186,6 @@ void draw_labels(SvgCanvas& canvas, const std::vector<Shape>& shapes) {
   for (const auto& [rank, index] : by_area) placer.place(index);
 }
 
-// Towards the eye: a dot in a ring; away from it: a ring.
-void draw_axis_end_on(SvgCanvas& canvas, const Eigen::Vector2d& at, const std::string& color,
-                      bool towards_eye) {
-  canvas.circle(at, 4.0, {.fill = "#ffffff", .stroke = color, .stroke_width = 1.4});
-  if (towards_eye) canvas.circle(at, 1.6, {.fill = color});
-}
-
-void draw_axes(SvgCanvas& canvas, const SvgPanel& panel) {
-  constexpr std::array<std::string_view, 3> kNames = {"x", "y", "z"};
-  constexpr std::array<std::string_view, 3> kColors = {"#c0392b", "#2e8b57", "#2f5fa8"};
-  constexpr double kLength = 22.0;
-  const Eigen::Vector2d origin =
-      panel.corner + Eigen::Vector2d(34.0, panel.size().y() - kPanelMinHeight / 2.0);
-  for (int i = 0; i < 3; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
-    const Eigen::Vector3d world = Eigen::Vector3d::Unit(i);
-    const Eigen::Vector2d along = panel.axes.project(world);
-    const Eigen::Vector2d tip(along.x(), -along.y());
-    if (tip.norm() < 0.15) {
-      const bool towards_eye = world.dot(panel.axes.forward) < 0.0;
-      draw_axis_end_on(canvas, origin, std::string(kColors[axis]), towards_eye);
-      continue;
-    }
-    canvas.line(origin, origin + kLength * tip, kColors[axis], 1.6);
-    Eigen::Vector2d label = origin + kLength * tip + 9.0 * tip.normalized();
-    // In the front view x and y lie on one line: their names go above and below it.
-    if (panel.view == SvgView::kFront && i < 2) label += Eigen::Vector2d(-4.0, i == 0 ? 9.0 : -8.0);
-    canvas.text(label + Eigen::Vector2d(0.0, 4.0), kNames[axis],
-                {.size = 11.0, .color = kColors[axis], .anchor = TextAnchor::kMiddle});
-  }
-}
-
 // "-y" for a direction along an axis, else degrees.
 std::string direction_text(double heading) {
   constexpr std::array<std::string_view, 4> kAxes = {"+x", "+y", "-x", "-y"};
@@ -250,7 +219,8 @@ Eigen::Vector2d SvgPanel::size() const {
 void draw_panel(SvgCanvas& canvas, const SvgPanel& panel, const PanelStyle& style) {
   canvas.text(panel.corner + Eigen::Vector2d(0.0, 14.0), caption(panel, style.heading),
               {.size = 13.0, .color = "#52606d", .bold = true});
-  draw_axes(canvas, panel);
+  const Eigen::Vector2d axes_at(34.0, panel.size().y() - kPanelMinHeight / 2.0);
+  draw_axes(canvas, panel.corner + axes_at, panel.axes);
   const std::vector<Shape> shapes = shapes_of(panel, style);
   for (const Shape& shape : shapes) draw_shape(canvas, shape, style);
   for (const Shape& shape : shapes) {

@@ -108,10 +108,12 @@ void rebase_where_needed(MapFeature& feature, double angle_limit) {
 }
 
 Polygon united_outline(const Polygon& old_outline, const Polygon& added, double tolerance) {
-  const Polygon beyond = geometry::subtract(added, geometry::offset(old_outline, tolerance));
-  if (beyond.empty()) return old_outline;
-  // `beyond` lies a tolerance away from the old outline: grown by two, it overlaps it.
-  const Polygon extension = geometry::intersect(added, geometry::offset(beyond, 2.0 * tolerance));
+  // What is left of the excess when half the tolerance is worn off on each side is where it counts.
+  const Polygon excess = geometry::subtract(added, old_outline);
+  const Polygon core = geometry::offset(excess, -0.5 * tolerance);
+  if (core.empty()) return old_outline;
+  // Grown back, and by as much again so that it overlaps the old outline.
+  const Polygon extension = geometry::intersect(added, geometry::offset(core, 1.5 * tolerance));
   const Polygon both = geometry::unite(old_outline, extension);
   const std::vector<GridPoint> old_vertices = sorted_vertices(old_outline);
   return geometry::simplify(both, tolerance, [&](GridPoint vertex) {

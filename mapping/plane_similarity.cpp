@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/polygon_clip.hpp"
 #include "mapping/fuse.hpp"
@@ -36,16 +37,18 @@ Uncertainty uncertainty(const MapFeature& feature, const Eigen::Vector3d& at_wor
   return result;
 }
 
+// Height [m] of a plane above the point `at` of the frame it is given in.
+double height_at(const Plane& plane, const Eigen::Vector2d& at) {
+  return -(plane.normal.head<2>().dot(at) + plane.d) / plane.normal.z();
+}
+
 // Rms over an area of the distance between two planes, both given in the area's frame: the
 // difference of their heights is linear, so the area's moments up to the second give it exactly.
 double rms_distance(const Plane& a, const Plane& b, const geometry::AreaMoments& over) {
-  const auto height = [&](const Plane& plane) {
-    return -(plane.normal.head<2>().dot(over.centroid) + plane.d) / plane.normal.z();
-  };
   const auto slope = [](const Plane& plane) -> Eigen::Vector2d {
     return -plane.normal.head<2>() / plane.normal.z();
   };
-  const double offset = height(a) - height(b);
+  const double offset = height_at(a, over.centroid) - height_at(b, over.centroid);
   const Eigen::Vector2d turn = slope(a) - slope(b);
   return a.normal.z() * std::sqrt(offset * offset + turn.dot(over.covariance * turn));
 }
@@ -55,6 +58,31 @@ double rms_distance(const Plane& a, const Plane& b, const geometry::AreaMoments&
 double least_overlap(double smaller, const MergeConfig& config) {
   const double border = 0.5 * config.gap * 0.5 * std::sqrt(smaller);
   return std::max(config.min_overlap_area, std::min(config.min_overlap_share * smaller, border));
+}
+
+Eigen::AlignedBox2d extent_in(const geometry::PlaneFrame& frame,
+                              const geometry::PlanarPolygon& surface) {
+  const Eigen::Isometry3d T_frame_parent = frame.T_plane_parent();
+  Eigen::AlignedBox2d box;
+  for (const geometry::PolygonPart& part : surface.polygon.parts) {
+    for (const geometry::GridPoint vertex : part.outer) {
+      box.extend(Eigen::Vector2d((T_frame_parent * surface.lift(vertex)).head<2>()));
+    }
+  }
+  return box;
+}
+
+// Least distance of two planes of one frame along its normal, over a box.
+double least_distance(const Plane& a, const Plane& b, const Eigen::AlignedBox2d& box) {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
+                            Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
+    const double difference = height_at(a, box.corner(corner)) - height_at(b, box.corner(corner));
+    lowest = std::min(lowest, difference);
+    highest = std::max(highest, difference);
+  }
+  return std::max({lowest, -highest, 0.0});
 }
 
 }  // namespace
@@ -81,21 +109,38 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
     return result;
   }
 
+  // Most neighbours are ruled out by their boxes, before any clipping.
   const geometry::PlaneFrame& frame = a.surface.frame;
+  const Eigen::Isometry3d T_frame_world = frame.T_plane_parent();
+  const Plane a_in_frame = plane_a.transformed(T_frame_world);
+  const Plane b_in_frame = plane_b.transformed(T_frame_world);
+  const Eigen::AlignedBox2d box_a = geometry::bounding_box(a.surface.polygon);
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(config.gap);
+  const Eigen::AlignedBox2d common = Eigen::AlignedBox2d(box_a.min() - reach, box_a.max() + reach)
+                                         .intersection(extent_in(frame, b.surface));
+  if (common.isEmpty()) {
+    result.difference = Difference::kOverlap;
+    return result;
+  }
+  if (least_distance(a_in_frame, b_in_frame, common) > config.max_distance) {
+    result.difference = Difference::kDistance;
+    return result;
+  }
+
   result.b_in_a = b.surface.in_frame(frame);
+  const double area_a = geometry::area(a.surface.polygon);
+  const double area_b = geometry::area(result.b_in_a);
   const geometry::AreaMoments overlap = geometry::area_moments(
-      geometry::intersect(geometry::offset(a.surface.polygon, 0.5 * config.gap),
-                          geometry::offset(result.b_in_a, 0.5 * config.gap)));
+      area_a < area_b
+          ? geometry::intersect(geometry::offset(a.surface.polygon, config.gap), result.b_in_a)
+          : geometry::intersect(a.surface.polygon, geometry::offset(result.b_in_a, config.gap)));
   result.overlap = overlap.area;
-  const double smaller = std::min(geometry::area(a.surface.polygon), geometry::area(result.b_in_a));
-  if (overlap.area < least_overlap(smaller, config)) {
+  if (overlap.area < least_overlap(std::min(area_a, area_b), config)) {
     result.difference = Difference::kOverlap;
     return result;
   }
 
-  const Eigen::Isometry3d T_frame_world = frame.T_plane_parent();
-  result.distance =
-      rms_distance(plane_a.transformed(T_frame_world), plane_b.transformed(T_frame_world), overlap);
+  result.distance = rms_distance(a_in_frame, b_in_frame, overlap);
   const Eigen::Vector3d where = a.surface.lift(overlap.centroid);
   const Uncertainty of_a = uncertainty(a, where, config);
   const Uncertainty of_b = uncertainty(b, where, config);

@@ -19,9 +19,9 @@ enum class Difference {
 /// @brief How alike two features are, measured where their polygons are.
 struct Similarity {
   Difference difference = Difference::kNone;
-  double angle = 0.0;        // [rad]
-  double overlap = 0.0;      // area of the overlap, both grown by half the gap tolerance [m²]
-  double distance = 0.0;     // rms distance between the planes over the overlap [m]
+  double angle = 0.0;     // [rad]
+  double overlap = 0.0;   // area of the overlap, the smaller one grown by the gap tolerance [m²]
+  double distance = 0.0;  // rms distance between the planes over the overlap [m]
   geometry::Polygon b_in_a;  // b's polygon in a's frame, set once side and angle agree
 };
 

@@ -25,7 +25,8 @@ struct FaceMark {
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
 using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceMark, Kernel>;
 using Delaunay =
-    CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+    CGAL::Delaunay_triangulation_2<Kernel,
+                                   CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 using Face = Delaunay::Face_handle;
 
 void require_valid(std::span<const Eigen::Vector2d> points, std::span<const double> radius) {
@@ -36,7 +37,8 @@ void require_valid(std::span<const Eigen::Vector2d> points, std::span<const doub
       std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }) &&
       std::all_of(radius.begin(), radius.end(),
                   [](double r) { return std::isfinite(r) && r > 0.0; });
-  if (!is_valid) throw std::invalid_argument("alpha_hull: points and radii must be finite, radii > 0");
+  if (!is_valid)
+    throw std::invalid_argument("alpha_hull: points and radii must be finite, radii > 0");
 }
 
 double circumradius_squared(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
@@ -53,8 +55,7 @@ void mark_inside(const Delaunay& delaunay, std::span<const Eigen::Vector2d> poin
                         c = face->vertex(2)->info();
     const double limit = std::max({radius[a], radius[b], radius[c]});
     // Infinite or not a number for a flat triangle: outside.
-    face->info().is_inside =
-        circumradius_squared(points[a], points[b], points[c]) <= limit * limit;
+    face->info().is_inside = circumradius_squared(points[a], points[b], points[c]) <= limit * limit;
   }
 }
 
@@ -62,7 +63,8 @@ bool is_border(const Face& face, int i) {
   return face->info().is_inside && !face->neighbor(i)->info().is_inside;
 }
 
-// Follows the border with the area on the left, turning about each vertex through the area's triangles.
+// Follows the border with the area on the left, turning about each vertex through the area's
+// triangles.
 std::vector<std::uint32_t> walk_ring(Face face, int i) {
   std::vector<std::uint32_t> ring;
   while (!face->info().is_walked[static_cast<std::size_t>(i)]) {

@@ -9,15 +9,15 @@ namespace geomap::perception {
 namespace {
 
 constexpr double kCellPixels = DepthCells::kSide * DepthCells::kSide;
-constexpr double kLeastFill = 0.5;    // of a cell or a window
+constexpr double kLeastFill = 0.5;     // of a cell or a window
 constexpr double kNormalError = 0.05;  // wanted, standard deviation [rad]
 // A depth camera's noise is alike in neighbouring pixels: counted as this much more of white noise.
 constexpr double kCorrelation = 3.0;
-constexpr int kLargestRadius = 5;      // of a window [cell]
-constexpr double kFlatGate = 2.0;      // rms of a flat window, over sigma
-constexpr double kUnevenRms = 0.5;     // of a window, over the unevenness of flat surfaces
-constexpr double kMeanGate = 1.5;      // a cell's mean off its window's plane, over sigma
-constexpr double kStepGate = 3.0;      // rms of a cell without a depth step, over sigma
+constexpr int kLargestRadius = 5;   // of a window [cell]
+constexpr double kFlatGate = 2.0;   // rms of a flat window, over sigma
+constexpr double kUnevenRms = 0.5;  // of a window, over the unevenness of flat surfaces
+constexpr double kMeanGate = 1.5;   // a cell's mean off its window's plane, over sigma
+constexpr double kStepGate = 3.0;   // rms of a cell without a depth step, over sigma
 
 // A window of w pixels at depth z is w·z/f wide: its normal is good to √12 σ f / (w² z).
 int window_radius(double z, double sigma, double focal_length) {
@@ -65,7 +65,8 @@ class NormalFinder {
     if (sums.count < kLeastFill * kCellPixels * side * side) return std::nullopt;
     auto fit = fit_plane(sums);
     if (!fit) return std::nullopt;
-    // Unevenness along the normal, in inverse depth: dq = q² dz, dz = e / |n·ray|, |n·ray| = q / |(A, B, C)|.
+    // Unevenness along the normal, in inverse depth: dq = q² dz, dz = e / |n·ray|, |n·ray| = q /
+    // |(A, B, C)|.
     const double q = own.q / own.count;
     const double uneven = kUnevenRms * tolerance_.unevenness * q * fit->coefficients.norm();
     if (fit->rms > kFlatGate * sigma_q + uneven) return std::nullopt;

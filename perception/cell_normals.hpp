@@ -21,9 +21,10 @@ struct CellNormal {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, towards the camera
 };
 
-/// @brief One normal per cell, from the smallest window of cells that is large enough for a normal good
-/// to about 5° under the frame's noise. Where a window at the cell's centre crosses an edge, the flattest of eight
-/// windows beside the cell serves, so that normals stay sharp at creases and depth steps.
+/// @brief One normal per cell, from the smallest window of cells that is large enough for a normal
+/// good to about 5° under the frame's noise. Where a window at the cell's centre crosses an edge,
+/// the flattest of eight windows beside the cell serves, so that normals stay sharp at creases and
+/// depth steps.
 std::vector<CellNormal> estimate_normals(const DepthCells& cells,
                                          const geometry::CameraModel& camera,
                                          const DepthTolerance& tolerance);

@@ -13,9 +13,9 @@ namespace geomap::perception {
 
 /// @brief Sums over pixels from which a plane is fitted to inverse depth q = 1/z.
 ///
-/// A plane's inverse depth is linear in the viewing ray (x, y, 1): q = A x + B y + C. A depth sensor's
-/// noise lies along the ray, so this fit, unlike one to points, is not tilted by noise, and needs no
-/// eigenvectors.
+/// A plane's inverse depth is linear in the viewing ray (x, y, 1): q = A x + B y + C. A depth
+/// sensor's noise lies along the ray, so this fit, unlike one to points, is not tilted by noise,
+/// and needs no eigenvectors.
 struct InverseDepthSums {
   double count = 0.0;
   double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;  // of the rays
@@ -32,7 +32,7 @@ struct InverseDepthSums {
 /// @brief The best plane through pixels.
 struct InverseDepthFit {
   Eigen::Vector3d coefficients;  // (A, B, C) [1/m]
-  double rms = 0.0;              // of inverse depth about the plane, three degrees of freedom off [1/m]
+  double rms = 0.0;  // of inverse depth about the plane, three degrees of freedom off [1/m]
 
   /// Unit normal towards the camera.
   Eigen::Vector3d normal() const { return -coefficients.normalized(); }
@@ -50,8 +50,8 @@ class DepthCells {
  public:
   static constexpr int kSide = 4;  // of a cell [pixel]
 
-  /// @brief Reads every pixel once. Readings outside [near, far] [m] count as none. Cells at the right
-  /// and lower border may be incomplete.
+  /// @brief Reads every pixel once. Readings outside [near, far] [m] count as none. Cells at the
+  /// right and lower border may be incomplete.
   DepthCells(const geometry::DepthImage& depth, const geometry::CameraModel& camera, double near,
              double far);
 

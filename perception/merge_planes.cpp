@@ -14,11 +14,11 @@ constexpr int kLeastContacts = 4;  // pairs of cells
 // Share of the tolerance that a plane's rms about the joint plane may take. A half is 1.5 sigma.
 constexpr double kRmsShare = 0.5;
 
-// A far smaller plane within nearly the whole tolerance of a larger one is a shell of left-overs, or
-// relief that the sensor cannot tell from the surface: the larger plane takes its pixels, but its fit
-// stays.
+// A far smaller plane within nearly the whole tolerance of a larger one is a shell of left-overs,
+// or relief that the sensor cannot tell from the surface: the larger plane takes its pixels, but
+// its fit stays.
 constexpr double kShellRmsShare = 0.8;
-constexpr double kShellPixels = 0.3;    // at most, over those of the larger plane
+constexpr double kShellPixels = 0.3;      // at most, over those of the larger plane
 constexpr double kShellAngleRatio = 2.0;  // largest angle, over that of joining
 
 // A plane with less than this share of the readings of the cells it appears in is speckle between
@@ -64,14 +64,14 @@ Contacts count_contacts(const DepthCells& cells, const std::vector<std::int16_t>
 
 double rms_about(const geometry::PlaneMoments& m, const geometry::Plane& plane) {
   const Eigen::Vector3d& n = plane.normal;
-  const double sum = n.dot(m.second * n) + 2.0 * plane.d * n.dot(m.first) +
-                     plane.d * plane.d * m.weight;
+  const double sum =
+      n.dot(m.second * n) + 2.0 * plane.d * n.dot(m.first) + plane.d * plane.d * m.weight;
   return std::sqrt(std::max(0.0, sum / m.weight));
 }
 
 // Would the surface lie within tolerance about this plane?
-bool lies_on(const Surface& surface, const geometry::Plane& plane,
-             const DepthTolerance& tolerance, double share) {
+bool lies_on(const Surface& surface, const geometry::Plane& plane, const DepthTolerance& tolerance,
+             double share) {
   const Eigen::Vector3d centroid = surface.fit->centroid;
   const double cosine = std::abs(plane.normal.dot(centroid)) / centroid.z();
   const double allowed = tolerance.along_ray(centroid.z()) * cosine + tolerance.unevenness;
@@ -90,8 +90,10 @@ bool join(Surface& a, const Surface& b, const DepthTolerance& tolerance, double 
     a = both;
     return true;
   }
-  if (b.sums.pixels < kShellPixels * a.sums.pixels) return lies_on(b, a.fit->plane, tolerance, kShellRmsShare);
-  if (a.sums.pixels < kShellPixels * b.sums.pixels && lies_on(a, b.fit->plane, tolerance, kShellRmsShare)) {
+  if (b.sums.pixels < kShellPixels * a.sums.pixels)
+    return lies_on(b, a.fit->plane, tolerance, kShellRmsShare);
+  if (a.sums.pixels < kShellPixels * b.sums.pixels &&
+      lies_on(a, b.fit->plane, tolerance, kShellRmsShare)) {
     a = b;
     return true;
   }

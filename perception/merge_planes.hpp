@@ -17,9 +17,9 @@ struct FittedPlanes {
   std::vector<std::int16_t> cell_label;  // per cell: index into planes, or kNoPlane
 };
 
-/// @brief Fits each plane to its pixels, and joins planes that touch in the image and are one surface
-/// under the sensor's tolerance: what RANSAC cut in two, and second shells that it found in the
-/// left-overs of a surface. Planes without a fit, and mere speckle, are dropped.
+/// @brief Fits each plane to its pixels, and joins planes that touch in the image and are one
+/// surface under the sensor's tolerance: what RANSAC cut in two, and second shells that it found in
+/// the left-overs of a surface. Planes without a fit, and mere speckle, are dropped.
 /// @param max_angle between planes that may be joined [rad]; shells may be turned by twice as much
 /// @param row_step with which the pixels were assigned
 FittedPlanes fit_and_merge(const DepthCells& cells, const PlanePixels& pixels,

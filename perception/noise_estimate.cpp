@@ -9,13 +9,15 @@
 namespace geomap::perception {
 namespace {
 
-constexpr int kBlockCells = 4;       // 16 x 16 pixels
+constexpr int kBlockCells = 4;        // 16 x 16 pixels
 constexpr double kLeastPixels = 200;  // of the 256 of a block
 constexpr int kLeastBlocks = 8;       // below that a quantile means nothing
 constexpr double kBinDepth = 0.5;     // [m]
-constexpr double kQuantile = 0.1;     // of the blocks' residuals that is taken as noise
+// No camera comes below this factor: what is left of a rendering is its rounding.
+constexpr double kRenderedFactor = 0.1;
+constexpr double kQuantile = 0.25;  // of the blocks' residuals that is taken as noise
 // That quantile of a residual's rms with 253 degrees of freedom, over its true value.
-constexpr double kQuantileOfRms = 0.943;
+constexpr double kQuantileOfRms = 0.970;
 
 struct BlockNoise {
   double depth = 0.0;  // [m]
@@ -28,8 +30,8 @@ double relief(const InverseDepthSums& sums) {
   return std::sqrt(std::max(0.0, sums.qq / sums.count - mean * mean)) / (mean * mean);
 }
 
-// Blocks of equal readings lie within one step of a coarse sensor, or face a noise-free one: they tell
-// nothing, and are left out where there are others.
+// Blocks of equal readings lie within one step of a coarse sensor, or face a noise-free one: they
+// tell nothing, and are left out where there are others.
 std::vector<BlockNoise> measure_blocks(const DepthCells& cells, double quantisation) {
   std::vector<BlockNoise> blocks, level;
   for (int r = 0; r + kBlockCells <= cells.rows(); r += kBlockCells) {
@@ -66,8 +68,8 @@ double low_quantile_of(const std::vector<BlockNoise>& blocks, const Measure& mea
   return low_quantile(std::move(values)) / kQuantileOfRms;
 }
 
-// How unevenly a measure is spread over depth: standard deviation of its logarithm between depth bins.
-// Flat means that the measure describes the noise's dependence on depth.
+// How unevenly a measure is spread over depth: standard deviation of its logarithm between depth
+// bins. Flat means that the measure describes the noise's dependence on depth.
 template <typename Measure>
 double spread_over_depth(const std::vector<BlockNoise>& blocks, const Measure& measure) {
   std::map<int, std::vector<BlockNoise>> bins;
@@ -103,14 +105,16 @@ geometry::DepthNoise estimate_noise(const DepthCells& cells, const geometry::Dep
   geometry::DepthNoise estimate = model;
   const double of_model = low_quantile_of(blocks, over_model);
   const double of_base = low_quantile_of(blocks, over_base);
+  if (of_model < kRenderedFactor) {
+    estimate.factor = kLeastNoiseFactor;
+    return estimate;
+  }
   // White noise: the same at all depths. Half the model's spread, since either measure scatters.
-  const bool is_measurable = of_model > kLeastNoiseFactor;
   const double model_spread = spread_over_depth(blocks, over_model);
-  const bool is_white = is_measurable && model_spread > 0.2 &&
-                        spread_over_depth(blocks, over_base) < 0.5 * model_spread;
+  const bool is_white =
+      model_spread > 0.2 && spread_over_depth(blocks, over_base) < 0.5 * model_spread;
   if (is_white) estimate.slope = 0.0;
-  estimate.factor =
-      std::clamp(is_white ? of_base : of_model, kLeastNoiseFactor, kLargestNoiseFactor);
+  estimate.factor = std::min(is_white ? of_base : of_model, kLargestNoiseFactor);
   return estimate;
 }
 

@@ -10,7 +10,8 @@
 namespace geomap::perception {
 namespace {
 
-// A depth camera's noise is alike within about this many pixels: as many count as one independent one.
+// A depth camera's noise is alike within about this many pixels: as many count as one independent
+// one.
 constexpr double kCorrelatedPixels = 64.0;
 
 geometry::PlaneObservation without_surface(const PlanePart& part) {
@@ -25,7 +26,8 @@ geometry::PlaneObservation without_surface(const PlanePart& part) {
   return observation;
 }
 
-bool is_known_well(const geometry::PlaneFit& fit, std::int64_t inliers, const ObservationSettings& settings) {
+bool is_known_well(const geometry::PlaneFit& fit, std::int64_t inliers,
+                   const ObservationSettings& settings) {
   const double independent = std::max(1.0, static_cast<double>(inliers) / kCorrelatedPixels);
   return fit.rms * fit.rms <=
          settings.max_normal_error * settings.max_normal_error * fit.extent.y() * independent;
@@ -70,8 +72,8 @@ std::optional<geometry::PlaneObservation> observe(const geometry::CameraModel& c
   observation.rms = fit->rms;
   geometry::PlanarPolygon& surface = observation.surface;
   surface.plane = plane;
-  surface.frame = geometry::PlaneFrame::on(plane, centroid, Eigen::Vector3d::UnitX(),
-                                           Eigen::Vector3d::UnitY());
+  surface.frame =
+      geometry::PlaneFrame::on(plane, centroid, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY());
   const double pixel = pixel_length(camera, plane, camera.project(centroid));
   surface.polygon = geometry::simplify(
       part_outline(camera, plane, surface.frame, image, index, part, settings.alpha),

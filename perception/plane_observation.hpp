@@ -11,7 +11,7 @@ namespace geomap::perception {
 
 /// @brief What makes a part of a plane worth reporting, and how its outline is drawn.
 struct ObservationSettings {
-  double min_area = 0.015;           // [m²]
+  double min_area = 0.015;  // [m²]
   int min_pixels = 200;
   double min_fill = 0.4;             // share of the outline's area that pixels cover
   double max_rms_ratio = 1.6;        // rms over what noise model and systematic error expect
@@ -21,8 +21,8 @@ struct ObservationSettings {
   double simplify_tolerance = 0.01;  // of the outline, one pixel's length is added [m]
 };
 
-/// @brief A part as an observation: plane fitted to its own pixels, outline, statistics. Nothing where
-/// it turns out to be no plane, or none that can be known.
+/// @brief A part as an observation: plane fitted to its own pixels, outline, statistics. Nothing
+/// where it turns out to be no plane, or none that can be known.
 /// @param index label of the plane of which this is a part.
 std::optional<geometry::PlaneObservation> observe(const geometry::CameraModel& camera,
                                                   const LabelImage& image, std::int16_t index,

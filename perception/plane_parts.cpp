@@ -51,8 +51,8 @@ std::vector<PlanePart> split_into_parts(const geometry::CameraModel& camera, int
                                         const geometry::Plane& plane,
                                         const std::vector<PlaneCell>& cells, double gap,
                                         int least_pixels) {
-  // Each cell is joined with the next one in its row, the next one in its column, and those touching its
-  // lower corners: `last` is the latest cell seen in each column, by index into cells.
+  // Each cell is joined with the next one in its row, the next one in its column, and those
+  // touching its lower corners: `last` is the latest cell seen in each column, by index into cells.
   constexpr int kNone = -1;
   Groups groups(cells.size());
   std::vector<int> last(static_cast<std::size_t>(columns), kNone);

@@ -13,9 +13,9 @@ namespace geomap::perception {
 /// @brief Cells of one plane that belong together, ascending; they belong to a PlanePixels.
 using PlanePart = std::vector<const PlaneCell*>;
 
-/// @brief Splits a plane's pixels into connected parts (paper: clustering of the inliers): pixels of one
-/// part reach each other over gaps, along the image's axes, of at most `gap` on the plane [m], and never
-/// less than a few pixels. Parts of fewer pixels than `least_pixels` are left out.
+/// @brief Splits a plane's pixels into connected parts (paper: clustering of the inliers): pixels
+/// of one part reach each other over gaps, along the image's axes, of at most `gap` on the plane
+/// [m], and never less than a few pixels. Parts of fewer pixels than `least_pixels` are left out.
 /// @param columns cells in a row of the image.
 std::vector<PlanePart> split_into_parts(const geometry::CameraModel& camera, int columns,
                                         const geometry::Plane& plane,

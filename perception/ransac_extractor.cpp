@@ -10,6 +10,7 @@
 #include "perception/euclidean_clusters.hpp"
 #include "perception/merge_planes.hpp"
 #include "perception/noise_estimate.hpp"
+#include "perception/pixel_labels.hpp"
 #include "perception/plane_observation.hpp"
 #include "perception/plane_parts.hpp"
 #include "perception/plane_pixels.hpp"
@@ -22,6 +23,7 @@ namespace {
 // The first assignment of pixels only has to be good enough to fit and merge planes.
 constexpr int kFirstRowStep = 2;
 
+using geometry::PlaneObservation;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
@@ -89,9 +91,10 @@ std::vector<std::int16_t> label_cells(const VoxelCloud& cloud,
   return of_cell;
 }
 
-// The depth beyond which voxels and cluster tolerance grow: cells are not denser there than this share
-// of a voxel (2.5 m for a Kinect and 4 cm).
-double even_density_depth(const RansacExtractorConfig& config, const geometry::CameraModel& camera) {
+// The depth beyond which voxels and cluster tolerance grow: cells are not denser there than this
+// share of a voxel (2.5 m for a Kinect and 4 cm).
+double even_density_depth(const RansacExtractorConfig& config,
+                          const geometry::CameraModel& camera) {
   constexpr double kCellsOfVoxel = 0.43;
   return kCellsOfVoxel * config.voxel_size * std::min(camera.fx, camera.fy) / DepthCells::kSide;
 }
@@ -105,13 +108,75 @@ std::vector<VoxelPlane> find_planes(const RansacExtractorConfig& config, const V
   settings.max_normal_angle = radians(config.max_normal_angle_deg);
   std::vector<VoxelPlane> planes;
   for (const std::vector<int>& cluster :
-       euclidean_clusters(cloud, config.cluster_tolerance, reference,
-                          config.min_cluster_voxels)) {
+       euclidean_clusters(cloud, config.cluster_tolerance, reference, config.min_cluster_voxels)) {
     for (VoxelPlane& plane : ransac_planes(cloud, cluster, tolerance, settings, seed++)) {
       planes.push_back(std::move(plane));
     }
   }
   return planes;
+}
+
+// Planes as RANSAC found them, and the cells that are on them.
+struct Seeds {
+  std::vector<geometry::Plane> planes;
+  std::vector<std::int16_t> cell_label;
+};
+
+// Paper: voxel filter, Euclidean clusters, RANSAC.
+Seeds find_seeds(const RansacExtractorConfig& config, const geometry::CameraModel& camera,
+                 const DepthCells& cells, const std::vector<CellNormal>& normals,
+                 const DepthTolerance& tolerance, std::uint64_t seed) {
+  const double reference = even_density_depth(config, camera);
+  const VoxelCloud cloud = make_voxel_cloud(cells, normals, config.voxel_size, reference);
+  const std::vector<VoxelPlane> found = find_planes(config, cloud, reference, tolerance, seed);
+  Seeds seeds;
+  for (const VoxelPlane& plane : found) seeds.planes.push_back(plane.plane);
+  seeds.cell_label = label_cells(cloud, found);
+  return seeds;
+}
+
+struct Surfaces {
+  std::vector<geometry::Plane> planes;
+  PlanePixels pixels;
+};
+
+// From seeds to all pixels: a quick assignment to fit and merge, then the final one.
+Surfaces grow_surfaces(const RansacExtractorConfig& config, const geometry::RgbdFrame& frame,
+                       const DepthCells& cells, const DepthTolerance& tolerance,
+                       const PixelLabeler& labeler, const Seeds& seeds) {
+  const PlanePixels first = sum_pixels(frame, cells, tolerance.noise,
+                                       labeler.label(seeds.planes, seeds.cell_label, kFirstRowStep),
+                                       seeds.planes.size(), kFirstRowStep);
+  FittedPlanes fitted =
+      fit_and_merge(cells, first, tolerance, radians(config.max_merge_angle_deg), kFirstRowStep);
+  Surfaces surfaces;
+  surfaces.pixels =
+      sum_pixels(frame, cells, tolerance.noise, labeler.label(fitted.planes, fitted.cell_label),
+                 fitted.planes.size());
+  surfaces.planes = std::move(fitted.planes);
+  return surfaces;
+}
+
+// Paper: clustering of the inliers, concave hull.
+std::vector<PlaneObservation> outline_surfaces(const RansacExtractorConfig& config,
+                                               const geometry::RgbdFrame& frame,
+                                               const DepthCells& cells,
+                                               const DepthTolerance& tolerance,
+                                               const Surfaces& surfaces) {
+  const geometry::CameraModel& camera = frame.depth_camera;
+  const LabelImage image{surfaces.pixels.label, frame.depth.width};
+  const ObservationSettings settings = observation_settings(config);
+  std::vector<PlaneObservation> observations;
+  for (std::size_t i = 0; i < surfaces.planes.size(); ++i) {
+    for (const PlanePart& part :
+         split_into_parts(camera, cells.columns(), surfaces.planes[i], surfaces.pixels.cells[i],
+                          config.part_gap, config.min_pixels)) {
+      auto observation =
+          observe(camera, image, static_cast<std::int16_t>(i), part, tolerance, settings);
+      if (observation) observations.push_back(std::move(*observation));
+    }
+  }
+  return observations;
 }
 
 }  // namespace
@@ -130,39 +195,22 @@ ExtractedPlanes RansacExtractor::extract(const geometry::RgbdFrame& frame, std::
   ExtractedPlanes result;
   if (frame.depth.empty()) return result;
   require_valid(frame);
-  const Clock::time_point start = Clock::now();
 
+  const Clock::time_point start = Clock::now();
   const DepthCells cells(frame.depth, frame.depth_camera, config_.min_depth, config_.max_depth);
   const DepthTolerance tolerance = tolerance_of(config_, cells);
-  result.noise = tolerance.noise;
   const auto normals = estimate_normals(cells, frame.depth_camera, tolerance);
-  const double reference = even_density_depth(config_, frame.depth_camera);
-  const VoxelCloud cloud = make_voxel_cloud(cells, normals, config_.voxel_size, reference);
-  const std::vector<VoxelPlane> found = find_planes(config_, cloud, reference, tolerance, seed);
-
-  const PixelAssigner assigner(frame, cells, normals, tolerance, config_.min_depth,
-                               config_.max_depth, radians(config_.max_normal_angle_deg));
-  std::vector<geometry::Plane> planes;
-  for (const VoxelPlane& plane : found) planes.push_back(plane.plane);
-  const FittedPlanes fitted =
-      fit_and_merge(cells, assigner.assign(planes, label_cells(cloud, found), kFirstRowStep), tolerance,
-                    radians(config_.max_merge_angle_deg), kFirstRowStep);
-  const PlanePixels pixels = assigner.assign(fitted.planes, fitted.cell_label);
+  const Seeds seeds = find_seeds(config_, frame.depth_camera, cells, normals, tolerance, seed);
+  const PixelLabeler labeler(frame, cells, normals, tolerance, config_.min_depth, config_.max_depth,
+                             radians(config_.max_normal_angle_deg));
+  const Surfaces surfaces = grow_surfaces(config_, frame, cells, tolerance, labeler, seeds);
+  result.noise = tolerance.noise;
   result.extraction_seconds = seconds_since(start);
 
   const Clock::time_point hull_start = Clock::now();
-  const LabelImage image{pixels.label, frame.depth.width};
-  const ObservationSettings settings = observation_settings(config_);
-  for (std::size_t i = 0; i < fitted.planes.size(); ++i) {
-    for (const PlanePart& part :
-         split_into_parts(frame.depth_camera, cells.columns(), fitted.planes[i], pixels.cells[i],
-                          config_.part_gap, config_.min_pixels)) {
-      auto observation = observe(frame.depth_camera, image, static_cast<std::int16_t>(i), part,
-                                 tolerance, settings);
-      if (observation && is_wanted(config_, observation->surface.plane, up_camera)) {
-        result.planes.push_back(std::move(*observation));
-      }
-    }
+  for (PlaneObservation& plane : outline_surfaces(config_, frame, cells, tolerance, surfaces)) {
+    if (is_wanted(config_, plane.surface.plane, up_camera))
+      result.planes.push_back(std::move(plane));
   }
   std::stable_sort(result.planes.begin(), result.planes.end(),
                    [](const auto& a, const auto& b) { return a.inliers > b.inliers; });

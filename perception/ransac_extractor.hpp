@@ -14,26 +14,26 @@ struct RansacExtractorConfig {
   double min_depth = 0.3;  // nearer readings are ignored [m]
   double max_depth = 6.0;  // farther readings are ignored [m]
 
-  std::string noise = "auto";  // auto: factor estimated per frame; fixed: noise_factor
-  double noise_factor = 1.0;   // of the sensor model, where fixed
-  double noise_gate = 3.0;     // how many sigma a reading may be off its plane
+  std::string noise = "auto";       // auto: factor estimated per frame; fixed: noise_factor
+  double noise_factor = 1.0;        // of the sensor model, where fixed
+  double noise_gate = 3.0;          // how many sigma a reading may be off its plane
   double systematic_error = 0.006;  // of a real camera, as a share of the depth
 
-  double voxel_size = 0.04;          // [m], growing with depth where pixels become sparse
-  double cluster_tolerance = 0.06;   // [m], growing likewise
+  double voxel_size = 0.04;         // [m], growing with depth where pixels become sparse
+  double cluster_tolerance = 0.06;  // [m], growing likewise
   int min_cluster_voxels = 8;
-  int ransac_iterations = 100;       // at most, per plane
+  int ransac_iterations = 100;         // at most, per plane
   double max_normal_angle_deg = 25.0;  // between a point's normal and its plane's
   double max_merge_angle_deg = 8.0;    // between pieces of one surface
 
-  double part_gap = 0.03;             // between inliers of one plane; beyond, they are two planes [m]
-  double alpha = 0.06;                // of the concave hull: largest circumscribed circle, radius [m]
-  double simplify_tolerance = 0.01;   // of the outline, one pixel's length is added [m]
+  double part_gap = 0.03;  // between inliers of one plane; beyond, they are two planes [m]
+  double alpha = 0.06;     // of the concave hull: largest circumscribed circle, radius [m]
+  double simplify_tolerance = 0.01;  // of the outline, one pixel's length is added [m]
 
-  double min_area = 0.015;      // of a plane [m²]
-  int min_pixels = 200;         // of a plane
-  double min_fill = 0.4;        // share of the outline's area that pixels cover
-  double max_rms_ratio = 1.6;   // rms of a plane over what the noise model expects
+  double min_area = 0.015;     // of a plane [m²]
+  int min_pixels = 200;        // of a plane
+  double min_fill = 0.4;       // share of the outline's area that pixels cover
+  double max_rms_ratio = 1.6;  // rms of a plane over what the noise model expects
 
   std::string orientation = "any";  // any, horizontal, vertical: which planes are wanted (paper)
   double max_tilt_deg = 10.0;       // from exactly horizontal or vertical
@@ -66,20 +66,21 @@ struct RansacExtractorConfig {
   }
 };
 
-/// @brief The paper's plane extraction (Arbeiter et al. 2012): voxel filter, Euclidean clusters, RANSAC
-/// planes until nothing is left, concave hull by alpha shape.
+/// @brief The paper's plane extraction (Arbeiter et al. 2012): voxel filter, Euclidean clusters,
+/// RANSAC planes until nothing is left, concave hull by alpha shape.
 ///
-/// Mended where the paper's recipe hurts: tolerances follow the depth noise; a plane's points must agree
-/// in their normals; planes are fitted to all pixels, weighted by noise, not to voxels; a plane whose
-/// hull has several rings is kept with its holes and parts; inliers far apart become separate planes.
+/// Mended where the paper's recipe hurts: tolerances follow the depth noise; a plane's points must
+/// agree in their normals; planes are fitted to all pixels, weighted by noise, not to voxels; a
+/// plane whose hull has several rings is kept with its holes and parts; inliers far apart become
+/// separate planes.
 class RansacExtractor : public PlaneExtractor {
  public:
   /// @throws std::invalid_argument with all messages of config.validate().
   explicit RansacExtractor(RansacExtractorConfig config = {});
 
-  /// @throws std::invalid_argument when the depth image's size is not that of its camera or its buffer,
-  /// the camera is invalid, or an orientation is wanted and `up_camera` is missing or zero. An empty
-  /// depth image has no planes.
+  /// @throws std::invalid_argument when the depth image's size is not that of its camera or its
+  /// buffer, the camera is invalid, or an orientation is wanted and `up_camera` is missing or zero.
+  /// An empty depth image has no planes.
   ExtractedPlanes extract(const geometry::RgbdFrame& frame, std::uint64_t seed,
                           const std::optional<Eigen::Vector3d>& up_camera) const override;
 

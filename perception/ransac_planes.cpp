@@ -82,12 +82,10 @@ class VoxelPlaneModel : public pcl::SampleConsensusModelPlane<pcl::PointXYZ> {
     rng_alg_.seed(static_cast<std::uint32_t>(seed ^ (seed >> 32)));
   }
 
-  // Three voxels near each other that could share a plane. Where the first has no two such neighbours
-  // it stands alone (three times the same index): its own normal then gives the plane.
+  // Three voxels near each other that could share a plane. Where the first has no two such
+  // neighbours it stands alone (three times the same index): its own normal then gives the plane.
   void getSamples(int&, pcl::Indices& samples) override {
-    const auto any = [this] {
-      return static_cast<std::size_t>(rnd()) % table_.size();
-    };
+    const auto any = [this] { return static_cast<std::size_t>(rnd()) % table_.size(); };
     const std::size_t first = any();
     samples.assign(3, static_cast<pcl::index_t>(first));
     std::size_t found = 1;
@@ -109,8 +107,7 @@ class VoxelPlaneModel : public pcl::SampleConsensusModelPlane<pcl::PointXYZ> {
       const Eigen::Vector3d ac = point(static_cast<std::size_t>(samples[2])) - point(a);
       const Eigen::Vector3d cross = ab.cross(ac);
       const double length = cross.norm();
-      if (length > 0.2 * ab.norm() * ac.norm() &&
-          std::abs(cross.dot(normal)) >= cosine_ * length) {
+      if (length > 0.2 * ab.norm() * ac.norm() && std::abs(cross.dot(normal)) >= cosine_ * length) {
         normal = cross / length;
       }
     }

@@ -42,8 +42,8 @@ VoxelCloud make_voxel_cloud(const DepthCells& cells, const std::vector<CellNorma
     if (normal.kind != CellNormal::Kind::kPlanar) continue;
     const InverseDepthSums& cell = cells.cell(i);
     const Eigen::Vector3d point = cell.mean_point();
-    const auto [at, is_new] = voxel_at.try_emplace(
-        voxel_key(evenly_dense(point, reference), leaf), static_cast<int>(cloud.voxels.size()));
+    const auto [at, is_new] = voxel_at.try_emplace(voxel_key(evenly_dense(point, reference), leaf),
+                                                   static_cast<int>(cloud.voxels.size()));
     if (is_new) cloud.voxels.emplace_back();
     Voxel& voxel = cloud.voxels[static_cast<std::size_t>(at->second)];
     voxel.mean += cell.count * point;

@@ -22,9 +22,9 @@ struct VoxelCloud {
   std::vector<int> voxel_of_cell;  // -1: the cell is not planar, or its voxel's normals disagree
 };
 
-/// @brief Coordinates in which a depth image's points are equally dense: metres up to `reference` [m],
-/// beyond it all lengths shrink with 1/depth. Voxel size and cluster tolerance apply in them, so both
-/// grow with range as the pixels' spacing does.
+/// @brief Coordinates in which a depth image's points are equally dense: metres up to `reference`
+/// [m], beyond it all lengths shrink with 1/depth. Voxel size and cluster tolerance apply in them,
+/// so both grow with range as the pixels' spacing does.
 Eigen::Vector3d evenly_dense(const Eigen::Vector3d& point, double reference);
 
 /// @brief Voxel filter over the planar cells.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -183,6 +184,35 @@ TEST(ExportSvg, AGivenExtentAndDirectionKeepASeriesOfPicturesStill) {
   const std::size_t at = early.find("<path ");
   ASSERT_NE(at, std::string::npos);
   EXPECT_THAT(late, HasSubstr(early.substr(at, early.find("/>", at) - at)));
+}
+
+TEST(ExportSvg, TheScaleBarHasARoundLengthAndTheScaleOfTheDrawing) {
+  for (const double side : {0.013, 0.4, 1.0, 3.7, 26.0, 950.0}) {
+    MapSnapshot map;
+    const double half = side / 2.0;
+    map.features.push_back(
+        make_feature({.id = {1, 0}}, {{{rectangle_ring(-half, -half, half, half), {}}}}));
+    SvgOptions top;
+    top.views = {SvgView::kTop};
+    const std::string svg = to_svg(map, top);
+    const std::string square = svg.substr(svg.find("<path d=\"M"));
+    const double scale = (number_after(square, "L") - number_after(square, "M")) / side;
+
+    const std::size_t unit =
+        std::min(svg.find(" m<"), std::min(svg.find(" cm<"), svg.find(" mm<")));
+    ASSERT_NE(unit, std::string::npos);
+    const double number = number_after(svg.substr(svg.rfind('>', unit)), ">");
+    const double metres = svg[unit + 1] == 'c'   ? number / 100.0
+                          : svg[unit + 2] == 'm' ? number / 1000.0
+                                                 : number;
+    const double digit = number / std::pow(10.0, std::floor(std::log10(number) + 1e-9));
+    EXPECT_THAT(digit, ::testing::AnyOf(1.0, 2.0, 5.0)) << number;
+    // The bar is the line drawn last but two; its ends have ticks.
+    const std::size_t bar = svg.rfind("<line", svg.rfind("<line", svg.rfind("<line") - 1) - 1);
+    const double length =
+        number_after(svg.substr(bar), "x2=\"") - number_after(svg.substr(bar), "x1=\"");
+    EXPECT_NEAR(length, metres * scale, 0.05 + 0.001 * length) << side;
+  }
 }
 
 TEST(ExportSvg, NumbersStayFiniteForAwkwardMaps) {

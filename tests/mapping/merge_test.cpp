@@ -38,7 +38,7 @@ Rectangle tilted(Rectangle rectangle, double angle) {
 
 TEST(PlaneSimilarity, DistanceIsTheRmsOverTheOverlapInClosedForm) {
   // A plane turned by angle a about the middle of a square of side s: heights are uniform in
-  // +-s/2 tan a, whose rms is s tan(a) / sqrt(12). Growing by half the gap widens s by the gap.
+  // +-s/2 tan a, whose rms is s tan(a) / sqrt(12).
   const double angle = 0.02;
   MergeConfig config;
   config.gap = 0.0;
@@ -83,11 +83,21 @@ TEST(PlaneSimilarity, DoesNotDependOnWhereTheWorldIs) {
   EXPECT_NEAR(near_by.overlap, far_away.overlap, 1e-5);
 }
 
-TEST(Fuse, AViewWeighsAtMostItsPose) {
-  const MergeConfig config;
-  const MapFeature feature = feature_of_rectangle(floor_at({0, 0, 0}));
-  EXPECT_NEAR(feature.moments.weight, 1.0 / (config.sigma_pose * config.sigma_pose), 1e-6);
-  EXPECT_NEAR(feature.sigma_d, config.sigma_pose, 1e-9);
+TEST(Fuse, AViewWeighsWhatItsPoseAndSensorAllowAndNoMoreThanItsShareOfSurface) {
+  MergeConfig config;
+  config.systematic_share = 0.0;
+  Observer observer;
+  const double pose_weight = 1.0 / (config.sigma_pose * config.sigma_pose);
+  const auto weight = [&](double half) {
+    const auto view = observer.observe(1, {floor_at({0, 0, 0}, half)}, kCamera);
+    return feature_of(*view, 0, config)->moments.weight;
+  };
+  EXPECT_NEAR(weight(0.75), pose_weight, 1e-6 * pose_weight);  // 2.25 m²: a full vote
+  EXPECT_NEAR(weight(0.25), 0.25 * pose_weight, 1e-3 * pose_weight);
+  config.systematic_share = 1.0;
+  const double sigma_z = geometry::DepthNoise{}.sigma(std::hypot(1.0, 3.0));
+  EXPECT_NEAR(weight(0.75), 1.0 / (1.0 / pose_weight + sigma_z * sigma_z), 0.2 * pose_weight);
+  EXPECT_LT(weight(0.75), 0.5 * pose_weight);
 }
 
 TEST(Fuse, ALargePatchDecidesTheAngleOfASmallOne) {

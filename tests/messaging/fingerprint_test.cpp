@@ -41,7 +41,7 @@ TEST(Fingerprint, OfOurTypesDoesNotChangeUnnoticed) {
       {"geomap.map_event_t", 0xc668263d2932c68a},
       {"geomap.map_feature_t", 0x6b918206429708ae},
       {"geomap.map_request_t", 0x67ecdf2721076e27},
-      {"geomap.map_state_t", 0x497264d55bc252bd},
+      {"geomap.map_state_t", 0xdd9671947ca61c9c},
       {"geomap.map_t", 0x42646c2c0c6fb42f},
       {"geomap.observation_id_t", 0x1f4fe432d8394ee8},
       {"geomap.plane_frame_t", 0xdc046660cb29ee34},

@@ -32,6 +32,8 @@ constexpr std::size_t kMemoryPerByte = 64;
 template <class Message>
 class SafeDecodeOf : public ::testing::Test {
  protected:
+  /// The layouts are read at first use; the tests measure what a message costs after that.
+  static void SetUpTestSuite() { known_schemas(); }
   static const MessageSchema& schema() { return *known_schemas().find(Message::getHash()); }
   std::mt19937 random_{20121};
 };

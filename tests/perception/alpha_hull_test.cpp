@@ -126,8 +126,8 @@ TEST(AlphaHull, WrongInputIsTheCallersMistake) {
   EXPECT_THROW(hull({{0.0, 0.0}, {1.0, 0.0}, {0.0, INFINITY}}, 1.0), std::invalid_argument);
 }
 
-// Oracle: a point is in the alpha shape when a triangle of three of the points that holds it has an empty
-// circumscribed circle no larger than the radius; tried over all triples.
+// Oracle: a point is in the alpha shape when a triangle of three of the points that holds it has an
+// empty circumscribed circle no larger than the radius; tried over all triples.
 bool is_covered(const Points& points, double radius, const Eigen::Vector2d& at) {
   const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
@@ -167,10 +167,12 @@ TEST(AlphaHull, RandomPointsCoverWhatTheDefinitionSays) {
       rings.push_back(ring);
     }
     const auto polygon = geometry::from_rings(rings, geometry::FillRule::kNonZero);
-    const auto inner = geometry::offset(polygon, -0.0005), outer = geometry::offset(polygon, 0.0005);
+    const auto inner = geometry::offset(polygon, -0.0005),
+               outer = geometry::offset(polygon, 0.0005);
     for (int i = 0; i < 100; ++i) {
       const Eigen::Vector2d at(uniform(generator), uniform(generator));
-      if (geometry::contains(inner, at) != geometry::contains(outer, at)) continue;  // on the border
+      if (geometry::contains(inner, at) != geometry::contains(outer, at))
+        continue;  // on the border
       EXPECT_EQ(geometry::contains(polygon, at), is_covered(points, 0.09, at));
     }
   }

@@ -18,8 +18,8 @@ geometry::DepthImage tilted_plane() {
       const Eigen::Vector3d ray = kCamera.ray(u, v);
       const double z = 1.0 / (0.3 * ray.x() - 0.2 * ray.y() + 0.5);
       const bool is_missing = (u * 7 + v * 13) % 11 == 0;
-      image.millimetres.push_back(
-          is_missing ? std::uint16_t{65535} : static_cast<std::uint16_t>(std::lround(1000.0 * z)));
+      image.millimetres.push_back(is_missing ? std::uint16_t{65535}
+                                             : static_cast<std::uint16_t>(std::lround(1000.0 * z)));
     }
   }
   return image;
@@ -36,8 +36,16 @@ TEST(DepthCells, AWindowIsTheSumOfItsPixels) {
       if (!geometry::DepthImage::is_reading(image.at(u, v))) continue;
       const Eigen::Vector3d ray = kCamera.ray(u, v);
       const double q = 1000.0 / image.at(u, v);
-      expected += {1.0,           ray.x(),     ray.y(),     ray.x() * ray.x(), ray.x() * ray.y(),
-                   ray.y() * ray.y(), q, q * ray.x(), q * ray.y(), q * q};
+      expected += {1.0,
+                   ray.x(),
+                   ray.y(),
+                   ray.x() * ray.x(),
+                   ray.x() * ray.y(),
+                   ray.y() * ray.y(),
+                   q,
+                   q * ray.x(),
+                   q * ray.y(),
+                   q * q};
     }
   }
   const InverseDepthSums found = cells.window(2, 1, 99, 5);
@@ -64,8 +72,10 @@ TEST(DepthCells, AFitFindsThePlaneAndItsRounding) {
 }
 
 TEST(DepthCells, ReadingsOutOfRangeCountAsNone) {
-  const geometry::DepthImage image{4, 4, {0,    65535, 299,  300,  1000, 1000, 1000, 1000,
-                                          2000, 2001,  5000, 1000, 1000, 1000, 1000, 1000}};
+  const geometry::DepthImage image{
+      4,
+      4,
+      {0, 65535, 299, 300, 1000, 1000, 1000, 1000, 2000, 2001, 5000, 1000, 1000, 1000, 1000, 1000}};
   const DepthCells cells(image, {4, 4, 5.0, 5.0, 2.0, 2.0}, 0.3, 2.0);
   EXPECT_EQ(cells.cell(0).count, 11.0);
 }

@@ -26,8 +26,8 @@ DepthNoise estimate(const std::function<double(double, int)>& sigma) {
     const double z = rendering.depth[i];
     if (z == 0.0) continue;
     const int column = static_cast<int>(i) % rendering.frame.depth.width;
-    rendering.frame.depth.millimetres[i] =
-        static_cast<std::uint16_t>(std::lround(1000.0 * (z + sigma(z, column) * normal(generator))));
+    rendering.frame.depth.millimetres[i] = static_cast<std::uint16_t>(
+        std::lround(1000.0 * (z + sigma(z, column) * normal(generator))));
   }
   return estimate_noise(DepthCells(rendering.frame.depth, rendering.frame.depth_camera, 0.3, 8.0),
                         DepthNoise{});
@@ -56,9 +56,8 @@ TEST(NoiseEstimate, RoundedDepthWithoutNoiseGivesTheLeastFactor) {
 
 TEST(NoiseEstimate, AThirdOfTheImageGoneWildChangesLittle) {
   const DepthNoise model;
-  const DepthNoise found = estimate([&](double z, int column) {
-    return (column < 213 ? 10.0 : 1.0) * model.sigma(z);
-  });
+  const DepthNoise found =
+      estimate([&](double z, int column) { return (column < 213 ? 10.0 : 1.0) * model.sigma(z); });
   EXPECT_NEAR(found.factor, 1.0, 0.15);
 }
 

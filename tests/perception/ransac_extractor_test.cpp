@@ -52,8 +52,8 @@ Match match(const PlaneObservation& plane, const std::vector<Rectangle>& scene,
   return best;
 }
 
-// Every rectangle of which at least `least_pixels` are visible is found as one plane within the bounds,
-// and nothing else is found.
+// Every rectangle of which at least `least_pixels` are visible is found as one plane within the
+// bounds, and nothing else is found.
 void expect_scene(const std::vector<Rectangle>& scene, const Eigen::Isometry3d& T_world_camera,
                   double sigma, double max_angle, double max_offset, double min_overlap,
                   const geometry::CameraModel& camera = testing::kinect_camera()) {
@@ -78,9 +78,7 @@ void expect_scene(const std::vector<Rectangle>& scene, const Eigen::Isometry3d& 
   }
 }
 
-Eigen::Isometry3d view_into_room() {
-  return testing::look_at({1.2, -1.2, 1.5}, {-0.4, 1.2, 0.6});
-}
+Eigen::Isometry3d view_into_room() { return testing::look_at({1.2, -1.2, 1.5}, {-0.4, 1.2, 0.6}); }
 
 Rectangle facing(const std::string& name, const Vector3d& center, double half_u, double half_v) {
   // Seen by a camera at the origin that looks along z.
@@ -90,8 +88,8 @@ Rectangle facing(const std::string& name, const Vector3d& center, double half_u,
 std::vector<PlaneObservation> planes_at_origin(const std::vector<Rectangle>& scene,
                                                double sigma = 0.0,
                                                const RansacExtractorConfig& config = {}) {
-  const Rendering rendering = testing::render(scene, testing::kinect_camera(),
-                                              Eigen::Isometry3d::Identity(), sigma);
+  const Rendering rendering =
+      testing::render(scene, testing::kinect_camera(), Eigen::Isometry3d::Identity(), sigma);
   return RansacExtractor(config).extract(rendering.frame, 1, std::nullopt).planes;
 }
 
@@ -170,14 +168,14 @@ TEST(RansacExtractor, TheTwoSidesOfADoorLookAtTheirCameras) {
 }
 
 TEST(RansacExtractor, CoplanarPartsFarApartAreTwoPlanes) {
-  const auto planes = planes_at_origin({facing("left", {-0.4, 0.0, 1.5}, 0.25, 0.3),
-                                        facing("right", {0.4, 0.0, 1.5}, 0.25, 0.3)});
+  const auto planes = planes_at_origin(
+      {facing("left", {-0.4, 0.0, 1.5}, 0.25, 0.3), facing("right", {0.4, 0.0, 1.5}, 0.25, 0.3)});
   EXPECT_EQ(planes.size(), 2u);
 }
 
 TEST(RansacExtractor, CoplanarPartsWithANarrowGapAreOnePlane) {
-  const auto planes = planes_at_origin({facing("left", {-0.26, 0.0, 1.5}, 0.25, 0.3),
-                                        facing("right", {0.26, 0.0, 1.5}, 0.25, 0.3)});
+  const auto planes = planes_at_origin(
+      {facing("left", {-0.26, 0.0, 1.5}, 0.25, 0.3), facing("right", {0.26, 0.0, 1.5}, 0.25, 0.3)});
   EXPECT_EQ(planes.size(), 1u);
 }
 
@@ -203,8 +201,8 @@ TEST(RansacExtractor, ASphereOfNoiseHasNoPlane) {
 TEST(RansacExtractor, QuantisationTerracesStayOneWall) {
   Rectangle wall = facing("wall", {0.0, 0.0, 2.8}, 1.4, 1.0);
   wall.u = Vector3d(std::cos(0.2), 0.0, std::sin(0.2));
-  Rendering rendering = testing::render({wall}, testing::kinect_camera(),
-                                        Eigen::Isometry3d::Identity());
+  Rendering rendering =
+      testing::render({wall}, testing::kinect_camera(), Eigen::Isometry3d::Identity());
   for (auto& reading : rendering.frame.depth.millimetres) {  // Kinect v1: steps of 1/8 disparity
     if (reading == 0) continue;
     const double disparity = std::round(8.0 * 585.0 * 75.0 / reading);
@@ -243,19 +241,18 @@ TEST(RansacExtractor, StatisticsAreThoseOfTheInliers) {
 }
 
 TEST(RansacExtractor, LargerPlanesComeFirst) {
-  const Rendering rendering = testing::render(testing::small_room(), testing::kinect_camera(),
-                                              view_into_room());
+  const Rendering rendering =
+      testing::render(testing::small_room(), testing::kinect_camera(), view_into_room());
   const auto planes = RansacExtractor().extract(rendering.frame, 1, std::nullopt).planes;
   ASSERT_GE(planes.size(), 3u);
-  EXPECT_TRUE(std::is_sorted(planes.begin(), planes.end(), [](const auto& a, const auto& b) {
-    return a.inliers > b.inliers;
-  }));
+  EXPECT_TRUE(std::is_sorted(planes.begin(), planes.end(),
+                             [](const auto& a, const auto& b) { return a.inliers > b.inliers; }));
 }
 
 TEST(RansacExtractor, OnlyTheWantedOrientationIsReported) {
   const Eigen::Isometry3d T_world_camera = view_into_room();
-  const Rendering rendering = testing::render(testing::small_room(), testing::kinect_camera(),
-                                              T_world_camera);
+  const Rendering rendering =
+      testing::render(testing::small_room(), testing::kinect_camera(), T_world_camera);
   const Vector3d up_camera = T_world_camera.linear().transpose() * Vector3d::UnitZ();
   for (const char* orientation : {"horizontal", "vertical"}) {
     RansacExtractorConfig config;
@@ -282,8 +279,8 @@ bool equal(const ExtractedPlanes& a, const ExtractedPlanes& b) {
 }
 
 TEST(RansacExtractor, TheSameSeedGivesTheSamePlanesToTheLastBitFromAnyThread) {
-  const Rendering rendering = testing::render(testing::small_room(), testing::kinect_camera(),
-                                              view_into_room(), 0.01);
+  const Rendering rendering =
+      testing::render(testing::small_room(), testing::kinect_camera(), view_into_room(), 0.01);
   const RansacExtractor extractor;
   const auto run = [&] { return extractor.extract(rendering.frame, 42, std::nullopt); };
   const ExtractedPlanes here = run();
@@ -295,8 +292,8 @@ TEST(RansacExtractor, TheSameSeedGivesTheSamePlanesToTheLastBitFromAnyThread) {
 }
 
 TEST(RansacExtractor, AnotherSeedFindsTheSameSurfaces) {
-  const Rendering rendering = testing::render(testing::small_room(), testing::kinect_camera(),
-                                              view_into_room(), 0.01);
+  const Rendering rendering =
+      testing::render(testing::small_room(), testing::kinect_camera(), view_into_room(), 0.01);
   const RansacExtractor extractor;
   const auto planes = extractor.extract(rendering.frame, 1, std::nullopt).planes;
   for (const std::uint64_t seed : {2ULL, 3ULL, 1000000000000000ULL}) {

@@ -54,7 +54,8 @@ KitchenView read_view(const std::filesystem::path& folder, int number) {
 
 double coverage(const KitchenView& view) {
   const auto& readings = view.frame.depth.millimetres;
-  const auto valid = std::count_if(readings.begin(), readings.end(), geometry::DepthImage::is_reading);
+  const auto valid =
+      std::count_if(readings.begin(), readings.end(), geometry::DepthImage::is_reading);
   double inliers = 0.0;
   for (const auto& plane : view.planes) inliers += static_cast<double>(plane.inliers);
   return inliers / static_cast<double>(valid);
@@ -66,7 +67,8 @@ double median(std::vector<double> values) {
   return *at;
 }
 
-// Angles [rad] between a reference plane and the large planes that lie on it, one list per reference.
+// Angles [rad] between a reference plane and the large planes that lie on it, one list per
+// reference.
 std::vector<std::vector<double>> angles_to_references(const std::vector<KitchenView>& views) {
   std::vector<std::vector<double>> angles(references().size());
   for (const KitchenView& view : views) {
@@ -117,7 +119,8 @@ TEST(RecordedPlanes, ViewsOfARealSenseShowALargePlaneEach) {
     geometry::RgbdFrame frame;
     frame.depth = drivers::read_depth_png(folder / "depth" / name);
     // The file's intrinsic matrix is column by column.
-    frame.depth_camera = {640, 480, 617.25, 617.5486450195312, 317.3921203613281, 245.98019409179688};
+    frame.depth_camera = {
+        640, 480, 617.25, 617.5486450195312, 317.3921203613281, 245.98019409179688};
     const auto planes = RansacExtractor().extract(frame, 1, std::nullopt).planes;
     ASSERT_FALSE(planes.empty()) << name;
     EXPECT_GT(planes[0].inliers, 20000) << name;
