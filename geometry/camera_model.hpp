@@ -5,8 +5,8 @@
 
 namespace geomap::geometry {
 
-/// @brief Pinhole camera without distortion. Pixel (u, v) means the centre of column u, row v, counted
-/// from 0 at the top left; the camera frame is optical (x right, y down, z forward).
+/// @brief Pinhole camera without distortion. Pixel (u, v) means the centre of column u, row v,
+/// counted from 0 at the top left; the camera frame is optical (x right, y down, z forward).
 struct CameraModel {
   int width = 0;    // [pixel]
   int height = 0;   // [pixel]

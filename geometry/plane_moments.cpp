@@ -15,8 +15,8 @@ constexpr double kLeastExtent = 1e-5;
 // hold all of them.
 Eigen::Matrix3d symmetric(const Eigen::Matrix3d& m) { return m.selfadjointView<Eigen::Upper>(); }
 
-// Largest share a of the noise term that leaves scatter - a·noise positive semi-definite, at most 1.
-// a is the smallest generalised eigenvalue of (scatter, noise), found from the largest of
+// Largest share a of the noise term that leaves scatter - a·noise positive semi-definite, at
+// most 1. a is the smallest generalised eigenvalue of (scatter, noise), found from the largest of
 // (noise, scatter), whose right-hand side is made definite by a term far below any sensor's noise.
 double noise_share(const Eigen::Matrix3d& scatter, const Eigen::Matrix3d& noise) {
   const Eigen::Matrix3d definite =

@@ -9,7 +9,8 @@
 
 namespace geomap::geometry {
 
-/// @brief A plane fitted to moments, with its uncertainty. Same frame as the moments; metres, radians.
+/// @brief A plane fitted to moments, with its uncertainty. Same frame as the moments; metres,
+/// radians.
 struct PlaneFit {
   Plane plane;
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
@@ -36,10 +37,10 @@ struct PlaneFit {
 /// Weights are inverse variances 1/σ_z² [1/m²], so that the total weight is the information on the
 /// offset. The moments refer to the origin of their frame: keep that origin near the points.
 struct PlaneMoments {
-  double weight = 0.0;                                 // Σ w
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();     // Σ w p
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();    // Σ w p pᵀ, symmetric
-  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();     // Σ w σ_z² r rᵀ, symmetric
+  double weight = 0.0;                               // Σ w
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();   // Σ w p
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // Σ w p pᵀ, symmetric
+  Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();   // Σ w σ_z² r rᵀ, symmetric
 
   /// @brief Adds a point of the camera frame (optical: z forward, z > 0) with σ_z [m], w = 1/σ_z².
   void add(const Eigen::Vector3d& p_camera, double sigma_z);
@@ -57,8 +58,8 @@ struct PlaneMoments {
   /// @brief Mean of the points; requires weight > 0.
   Eigen::Vector3d centroid() const { return first / weight; }
 
-  /// @brief The plane, its normal on the side of `side` (n·side >= 0); nothing when the points do not
-  /// span a plane (fewer than three, collinear, or all equal).
+  /// @brief The plane, its normal on the side of `side` (n·side >= 0); nothing when the points do
+  /// not span a plane (fewer than three, collinear, or all equal).
   std::optional<PlaneFit> fit(const Eigen::Vector3d& side) const;
 
   /// @brief weight, first (3), second (xx xy xz yy yz zz), noise (same order).

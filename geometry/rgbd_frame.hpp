@@ -36,8 +36,8 @@ struct ColorImage {
   bool empty() const { return rgb.empty(); }
 };
 
-/// @brief One reading of an RGB-D camera. Colour may be absent (empty). Where both images have the same
-/// size, pixel (u, v) of colour is taken as the colour of pixel (u, v) of depth.
+/// @brief One reading of an RGB-D camera. Colour may be absent (empty). Where both images have the
+/// same size, pixel (u, v) of colour is taken as the colour of pixel (u, v) of depth.
 struct RgbdFrame {
   std::int64_t utime = 0;  // [us] of the sensor
   std::int64_t sequence = 0;

@@ -15,21 +15,21 @@ namespace geomap::perception {
 /// @brief The planes of one frame, camera frame, largest (by inliers) first.
 struct ExtractedPlanes {
   std::vector<geometry::PlaneObservation> planes;
-  geometry::DepthNoise noise;        // in force for this frame, its factor estimated where configured
-  double extraction_seconds = 0.0;   // wall clock, for profiling only: everything but the outlines
-  double hull_seconds = 0.0;         // wall clock, for profiling only: outlines
+  geometry::DepthNoise noise;  // in force for this frame, its factor estimated where configured
+  double extraction_seconds = 0.0;  // wall clock, for profiling only: everything but the outlines
+  double hull_seconds = 0.0;        // wall clock, for profiling only: outlines
 };
 
-/// @brief Finds planar surfaces and their outlines in one depth frame. Implementations are functions of
-/// their arguments alone: same frame and seed, same planes to the last bit; safe to call from several
-/// threads at once.
+/// @brief Finds planar surfaces and their outlines in one depth frame. Implementations are
+/// functions of their arguments alone: same frame and seed, same planes to the last bit; safe to
+/// call from several threads at once.
 class PlaneExtractor {
  public:
   virtual ~PlaneExtractor() = default;
 
   /// @param seed of everything random; the key frame's id.
-  /// @param up_camera the world's up direction in the camera frame, needed only where the orientation
-  /// of planes is constrained.
+  /// @param up_camera the world's up direction in the camera frame, needed only where the
+  /// orientation of planes is constrained.
   virtual ExtractedPlanes extract(const geometry::RgbdFrame& frame, std::uint64_t seed,
                                   const std::optional<Eigen::Vector3d>& up_camera) const = 0;
 };
