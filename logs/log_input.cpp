@@ -45,8 +45,9 @@ void LogInput::handle(const messaging::LogEvent& event) {
 }
 
 void LogInput::note_sequence(std::int64_t sequence) {
-  if (last_sequence_ && sequence > *last_sequence_ + 1) {
-    sequence_gaps_ += sequence - *last_sequence_ - 1;
+  constexpr std::int64_t kRestart = 1'000'000;  // a longer jump is another driver, not a loss
+  if (last_sequence_ >= 0 && sequence > last_sequence_ && sequence - last_sequence_ < kRestart) {
+    sequence_gaps_ += sequence - last_sequence_ - 1;
   }
   last_sequence_ = sequence;
 }

@@ -33,7 +33,7 @@ class LogInput {
 
   Pipeline& pipeline_;
   Refused refused_;
-  std::optional<std::int64_t> last_sequence_;
+  std::int64_t last_sequence_ = -1;  // negative: none yet
   std::int64_t sequence_gaps_ = 0;
 };
 

@@ -196,6 +196,24 @@ TEST(HostileLog, FramesThatComeAgainAreCountedAndDoNotCountTwice) {
   EXPECT_GE(outcome.rejected.at("repeated_utime"), 1);
 }
 
+TEST(HostileLog, MissingFramesAreCountedByTheirSequenceNumbers) {
+  const auto gaps = [](const std::vector<std::int64_t>& sequences) {
+    Pipeline pipeline(PipelineConfig{}, 1);
+    LogInput input(pipeline);
+    auto frame = decoded<geomap::rgbd_frame_t>(good_log()[2]);
+    for (const std::int64_t sequence : sequences) {
+      frame.sequence = sequence;
+      input.handle({0, frame.utime, "RGBD_FRAME", messaging::encode(frame)});
+    }
+    return input.sequence_gaps();
+  };
+  constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
+  constexpr auto kLeast = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(gaps({0, 1, 2}), 0);
+  EXPECT_EQ(gaps({5, 6, 9, 11}), 3);
+  EXPECT_EQ(gaps({100, 0, 1, kLeast, kMost, kLeast, 0}), 0);
+}
+
 TEST(HostileLog, UnknownChannelsAreIgnored) {
   const Outcome outcome = replayed(strewn(good_log(), [](LogEvent event) {
     event.channel = "LCM_SELF_TEST";

@@ -264,30 +264,23 @@ TEST_F(Kitchen, FusingInAnotherOrderGivesTheSameLargeFeatures) {
     const double area = geometry::area(feature.surface.polygon);
     if (area < 0.1) continue;
     ++large;
-    const MapFeature* best = nullptr;
-    double best_overlap = 0.5 * area;
-    for (const MapFeature& candidate : theirs) {
-      const double overlap = stacked_area(feature, candidate);
-      if (overlap > best_overlap) best_overlap = overlap, best = &candidate;
-    }
-    if (best == nullptr) {
-      std::cout << to_string(feature.id) << " " << area << " m2: none\n";
-      continue;
-    }
-    const double angle =
-        geometry::angle_between(feature.surface.plane, best->surface.plane) / kRadiansPerDegree;
     const Eigen::Vector3d at =
         feature.surface.lift(geometry::area_moments(feature.surface.polygon).centroid);
-    const double distance = std::abs(best->surface.plane.signed_distance(at));
-    if (angle < 0.1 && distance < 0.002) {
-      ++matched;
-    } else {
-      std::cout << to_string(feature.id) << " " << area << " m2: " << angle << " deg, "
-                << 1e3 * distance << " mm, overlap " << best_overlap << "\n";
-    }
+    const bool found = std::any_of(theirs.begin(), theirs.end(), [&](const MapFeature& candidate) {
+      return stacked_area(feature, candidate) > 0.5 * area &&
+             geometry::angle_between(feature.surface.plane, candidate.surface.plane) <
+                 0.1 * kRadiansPerDegree &&
+             std::abs(candidate.surface.plane.signed_distance(at)) < 0.002;
+    });
+    matched += found;
+    // Clutter that two neighbours compete for may go either way; furniture and walls may not.
+    EXPECT_TRUE(found || area < 0.6) << to_string(feature.id) << " " << area << " m2";
   }
-  std::cout << matched << " of " << large << " large features the same; " << mine.size() << " and "
-            << theirs.size() << " features\n";
+  std::cout << matched << " of " << large << " features of at least 0.1 m2 the same; "
+            << mine.size() << " and " << theirs.size() << " features\n";
+  EXPECT_GE(10 * matched, 6 * large);
+  EXPECT_NEAR(static_cast<double>(theirs.size()), static_cast<double>(mine.size()),
+              0.05 * static_cast<double>(mine.size()));
 }
 
 }  // namespace
