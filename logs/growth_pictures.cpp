@@ -5,18 +5,9 @@
 
 #include "mapping/export_file.hpp"
 #include "mapping/export_svg.hpp"
+#include "mapping/map_journal.hpp"
 
 namespace geomap::logs {
-namespace {
-
-mapping::MapSnapshot snapshot(std::int64_t revision, const mapping::FeatureSet& features) {
-  mapping::MapSnapshot result{revision, "", {}};
-  for (const auto& [id, feature] : features) result.features.push_back(*feature);
-  return result;
-}
-
-}  // namespace
-
 void GrowthPictures::note(const mapping::GeometricMap& map, const mapping::MapChange& change) {
   if (every_ == 0) return;
   ++keyframes_;
@@ -32,7 +23,8 @@ void GrowthPictures::write(const std::filesystem::path& folder) const {
   std::filesystem::create_directories(folder);
   mapping::SvgOptions options;
   options.views = {mapping::SvgView::kOblique};
-  const mapping::MapSnapshot last = snapshot(moments_.back().revision, moments_.back().features);
+  const mapping::MapSnapshot last =
+      mapping::snapshot_of(moments_.back().revision, moments_.back().features);
   options.heading = mapping::front_heading(last.features);
   options.turn = mapping::oblique_turn(last.features, *options.heading);
   options.extent.emplace();
@@ -42,8 +34,9 @@ void GrowthPictures::write(const std::filesystem::path& folder) const {
   for (const Moment& moment : moments_) {
     options.title = fmt::format("After key frame {}", moment.keyframes);
     options.highlighted = moment.touched;
-    mapping::write_file(folder / fmt::format("keyframe_{:04}.svg", moment.keyframes),
-                        mapping::to_svg(snapshot(moment.revision, moment.features), options));
+    mapping::write_file(
+        folder / fmt::format("keyframe_{:04}.svg", moment.keyframes),
+        mapping::to_svg(mapping::snapshot_of(moment.revision, moment.features), options));
   }
 }
 

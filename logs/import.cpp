@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "drivers/camera_mount.hpp"
-#include "logs/part_file.hpp"
 #include "messaging/channels.hpp"
 #include "messaging/convert_frame.hpp"
 #include "messaging/convert_geometry.hpp"
 #include "messaging/jpeg.hpp"
 #include "messaging/log_writer.hpp"
+#include "messaging/part_file.hpp"
 
 namespace geomap::logs {
 namespace {
@@ -179,7 +179,7 @@ std::string to_string(ImportPrior prior) {
 ImportSummary import_frames(drivers::FrameSource& source, const ImportSettings& settings,
                             const std::string& out,
                             const std::function<bool(std::size_t done)>& proceed) {
-  PartFile part(out);
+  messaging::PartFile part(out);
   messaging::LogWriter log(part.name());
   Importer importer(source, settings, log);
   for (std::size_t done = 0;; ++done) {

@@ -96,7 +96,10 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   return messaging::run_program(
-      argc, argv, {"geomap-import", "Turns a folder of RGB-D frames into an LCM log."},
+      argc, argv,
+      {.name = "geomap-import",
+       .description = "Turns a folder of RGB-D frames into an LCM log.",
+       .uses_config = false},
       [&](messaging::OptionParser& parser) { declare(parser, options); },
       [&](const messaging::CommonOptions&) { return run(options); });
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "logs/pipeline.hpp"
+#include "messaging/convert_frame.hpp"
 #include "messaging/log_reader.hpp"
 
 namespace geomap::logs {
@@ -15,7 +16,9 @@ namespace geomap::logs {
 /// is counted by channel and reason, and passed over; channels that are no input are ignored.
 class LogInput {
  public:
-  explicit LogInput(Pipeline& pipeline) : pipeline_(pipeline) {}
+  /// @param cameras of the channels OPENNI_FRAME and KINECT_FRAME, which carry no intrinsics.
+  LogInput(Pipeline& pipeline, const messaging::FrameCameras& cameras)
+      : pipeline_(pipeline), cameras_(cameras) {}
 
   void handle(const messaging::LogEvent& event);
 
@@ -28,10 +31,15 @@ class LogInput {
  private:
   template <class Message>
   std::optional<Message> decode(const messaging::LogEvent& event);
+  template <class Message>
+  bool has_sound_time(const messaging::LogEvent& event, const Message& message);
+  template <class Message>
+  void take_foreign(const messaging::LogEvent& event, const Message& message);
   void refuse(const messaging::LogEvent& event, const std::string& reason);
   void note_sequence(std::int64_t sequence);
 
   Pipeline& pipeline_;
+  messaging::FrameCameras cameras_;
   Refused refused_;
   std::int64_t last_sequence_ = -1;  // negative: none yet
   std::int64_t sequence_gaps_ = 0;

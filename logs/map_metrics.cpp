@@ -4,21 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/angles.hpp"
 #include "geometry/polygon_clip.hpp"
 
 namespace geomap::logs {
-namespace {
-
-constexpr double kRadiansPerDegree = 0.017453292519943295;
-
-}  // namespace
-
 double stacked_area(const mapping::MapFeature& a, const mapping::MapFeature& b,
                     const DuplicateRule& rule) {
   const geometry::Plane& plane_a = a.surface.plane;
   const geometry::Plane& plane_b = b.surface.plane;
   if (std::abs(plane_a.normal.dot(plane_b.normal)) <
-      std::cos(rule.max_angle_deg * kRadiansPerDegree)) {
+      std::cos(geometry::radians(rule.max_angle_deg))) {
     return 0.0;
   }
   const geometry::AreaMoments overlap = geometry::area_moments(

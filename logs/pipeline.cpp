@@ -135,6 +135,7 @@ void Pipeline::merge_oldest() {
   record.map_features = static_cast<int>(map_.features().size());
   if (applied.fault != mapping::EventFault::kNone) {
     ++rejected_[mapping::to_string(applied.fault)];
+    point_map_.remove(record.id);
     return;
   }
   keyframes_.push_back(record);

@@ -68,7 +68,6 @@ class Pipeline {
   const std::vector<TimedPose>& tracked() const { return tracked_; }
   const mapping::GeometricMap& map() const { return map_; }
   const perception::PointMap& point_map() const { return point_map_; }
-  const perception::PosePrior& prior() const { return prior_; }
 
  private:
   struct Extraction {

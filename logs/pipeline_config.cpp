@@ -4,7 +4,9 @@
 namespace geomap::logs {
 
 PipelineConfig read_pipeline_config(const messaging::Config& config) {
-  return {config.read<perception::PriorConfig>("prior"),
+  return {config.read<messaging::CameraConfig>("driver_camera.depth"),
+          config.read<messaging::CameraConfig>("driver_camera.color"),
+          config.read<perception::PriorConfig>("prior"),
           config.read<perception::KeyframeConfig>("keyframes"),
           config.read<perception::TrustPriorConfig>("registration"),
           config.read<perception::PointMapConfig>("point_map"),

@@ -3,6 +3,7 @@
 
 #include "mapping/geometric_map.hpp"
 #include "mapping/merge_config.hpp"
+#include "messaging/camera_config.hpp"
 #include "messaging/config.hpp"
 #include "perception/keyframe_selector.hpp"
 #include "perception/point_map.hpp"
@@ -14,6 +15,8 @@ namespace geomap::logs {
 
 /// @brief The settings of every stage. One member per section of config/default.yaml.
 struct PipelineConfig {
+  messaging::CameraConfig driver_depth;  // section driver_camera.depth
+  messaging::CameraConfig driver_color;  // section driver_camera.color
   perception::PriorConfig prior;
   perception::KeyframeConfig keyframes;
   perception::TrustPriorConfig registration;

@@ -32,9 +32,32 @@ constexpr std::int64_t kRawBytesPerPixel = 12;  // as the paper counts: three fl
 constexpr std::int64_t kBytesPerPoint = 12;
 constexpr std::int64_t kBytesPerPolygon = 16;  // four plane coefficients
 
+void check(const ReplayOptions& options) {
+  if (options.threads < 1 || options.threads > 256) {
+    throw messaging::ConfigError("--threads must be between 1 and 256");
+  }
+  if (options.passes < 1) throw messaging::ConfigError("--loop must be at least 1");
+  if (options.pictures_every < 0) {
+    throw messaging::ConfigError("--pictures-every must not be negative");
+  }
+}
+
+// Results must not replace what they are made from.
+void check_not_overwritten(const ReplayOptions& options) {
+  for (const std::filesystem::path& file :
+       {std::filesystem::path(options.log_out), options.output / "map.lcmlog"}) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(file, options.log, ignored)) {
+      throw messaging::ConfigError(file.string() + " is the log to replay: choose another name");
+    }
+  }
+}
+
 // One reading of the log from front to back.
 struct Pass {
-  Pass(const PipelineConfig& config, int threads) : pipeline(config, threads), input(pipeline) {}
+  Pass(const PipelineConfig& config, int threads)
+      : pipeline(config, threads),
+        input(pipeline, {config.driver_depth.camera(), config.driver_color.camera()}) {}
 
   Pipeline pipeline;
   LogInput input;
@@ -126,7 +149,10 @@ void append_times(const Pipeline& pipeline, std::vector<StageTimes>& times) {
 }  // namespace
 
 ReplayResult replay(const ReplayOptions& options, const messaging::Config& config) {
+  check(options);
   const PipelineConfig settings = read_pipeline_config(config);
+  messaging::LogReader(options.log);  // a wrong name shall not leave an empty folder behind
+  check_not_overwritten(options);
   std::filesystem::create_directories(options.output);
   mapping::write_file(options.output / "config_used.yaml", config.to_yaml());
 
@@ -142,7 +168,7 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   run(first, options.log);
   derived.close();
   const Pipeline& pipeline = first.pipeline;
-  if (pipeline.frames() == 0) {
+  if (pipeline.frames() == 0 && !first.stopped) {
     throw std::runtime_error(options.log + " holds no readable " + channels::kRgbdFrame);
   }
 
@@ -155,9 +181,9 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   for (int pass = 1; pass < options.passes && !result.stopped; ++pass) {
     Pass again(settings, options.threads);
     run(again, options.log);
-    result.stopped = again.stopped;
+    if (again.stopped) break;  // the results of the first pass are whole
     append_times(again.pipeline, report.times);
-    if (!again.stopped && mapping::snapshot_of(again.pipeline.map()).hash != report.map.hash) {
+    if (mapping::snapshot_of(again.pipeline.map()).hash != report.map.hash) {
       throw std::runtime_error(fmt::format("pass {} over the log gave another map", pass + 1));
     }
   }

@@ -164,7 +164,9 @@ std::string reduction_table(const DataReduction& r) {
 }  // namespace
 
 void write_report(const Report& report, const std::filesystem::path& folder) {
-  mapping::write_file(folder / "report.json", to_json(report).dump(2) + "\n");
+  mapping::write_file(
+      folder / "report.json",
+      to_json(report).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
   mapping::write_file(
       folder / "report.md",
       fmt::format("# Geometric map of {}\n\n![The map from above, from the front and obliquely]"

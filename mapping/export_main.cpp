@@ -26,7 +26,10 @@ int main(int argc, char** argv) {
   std::string out;
   mapping::ExportOptions options;
   return messaging::run_program(
-      argc, argv, {"geomap-export", "Writes a geometric map for other programs and for people."},
+      argc, argv,
+      {.name = "geomap-export",
+       .description = "Writes a geometric map for other programs and for people.",
+       .uses_config = false},
       [&](messaging::OptionParser& parser) {
         parser.positional("MAP", map, "saved map (map.lcmlog)");
         parser.positional(

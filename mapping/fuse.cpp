@@ -2,6 +2,7 @@
 #include "mapping/fuse.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -14,6 +15,8 @@ namespace {
 using geometry::GridPoint;
 using geometry::PlaneFrame;
 using geometry::Polygon;
+
+constexpr std::array<double, 3> kNoColor{};
 
 std::vector<GridPoint> sorted_vertices(const Polygon& polygon) {
   std::vector<GridPoint> vertices;
@@ -76,7 +79,9 @@ void add_evidence(MapFeature& feature, const MapFeature& other) {
   feature.id = feature.observations.front();
 
   const double total = static_cast<double>(feature.inliers + other.inliers);
-  const double share = static_cast<double>(other.inliers) / total;
+  double share = static_cast<double>(other.inliers) / total;
+  if (other.color == kNoColor) share = 0.0;  // seen without colour, not seen black
+  if (feature.color == kNoColor) share = 1.0;
   for (std::size_t i = 0; i < feature.color.size(); ++i) {
     feature.color[i] += share * (other.color[i] - feature.color[i]);
   }

@@ -63,12 +63,6 @@ ApplyResult GeometricMap::apply(const MapEvent& event) {
   return result;
 }
 
-std::size_t GeometricMap::observed_planes() const {
-  std::size_t count = 0;
-  for (const auto& [id, observation] : history_.keyframes()) count += observation->planes.size();
-  return count;
-}
-
 SavedMap GeometricMap::saved() const {
   return {
       merge_config_, history_config_,  revision_, store_.features(), history_.forgotten_through(),

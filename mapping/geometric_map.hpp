@@ -67,8 +67,6 @@ class GeometricMap {
   const FeatureSet& features() const { return store_.features(); }
   /// @brief Number of events that changed the map.
   std::int64_t revision() const { return revision_; }
-  /// @brief Planes of all key frames that are in the history.
-  std::size_t observed_planes() const;
   const EventHistory& history() const { return history_; }
   SavedMap saved() const;
 

@@ -40,12 +40,17 @@ enum class EventFault {
   kNone,
   kNotFinite,        // a number is not finite
   kNotRigid,         // a pose is not a rotation and a translation
+  kOutOfRange,       // a pose or polygon lies farther out than the numbers reach
   kBadPolygon,       // a polygon breaks its invariant or a frame is not orthonormal
   kAlreadyObserved,  // the key frame is in the map
   kRemoved,          // the key frame was removed before
   kCompacted,        // the key frame is part of the base state, whose events are gone
 };
 std::string to_string(EventFault fault);
+
+/// @brief Checks a surface in its own right: finite, orthonormal frame, plane along the frame,
+/// valid polygon that reaches at most 1 km.
+EventFault find_fault(const geometry::PlanarPolygon& surface);
 
 /// @brief Checks what needs no map: finite numbers, rigid poses, valid polygons.
 EventFault find_fault(const MapEvent& event);

@@ -14,6 +14,7 @@
 #include "messaging/config.hpp"
 #include "messaging/log_reader.hpp"
 #include "messaging/log_writer.hpp"
+#include "messaging/part_file.hpp"
 #include "messaging/safe_decode.hpp"
 
 namespace geomap::mapping {
@@ -106,10 +107,14 @@ class MapFile {
   }
 
   void take_state() {
-    const auto config = messaging::Config::from_text(to_yaml(MergeConfig{}, HistoryConfig{}),
-                                                     state_->config, path_.string());
-    saved_.merge = config.read<MergeConfig>("merge");
-    saved_.history = config.read<HistoryConfig>("history");
+    try {
+      const auto config = messaging::Config::from_text(to_yaml(MergeConfig{}, HistoryConfig{}),
+                                                       state_->config, path_.string());
+      saved_.merge = config.read<MergeConfig>("merge");
+      saved_.history = config.read<HistoryConfig>("history");
+    } catch (const messaging::ConfigError& error) {
+      fail(std::string("was made with settings of another version: ") + error.what());
+    }
     saved_.revision = state_->revision;
     saved_.features = features(state_->features);
     saved_.base_features = features(state_->base_features);
@@ -122,18 +127,12 @@ class MapFile {
   SavedMap saved_;
 };
 
-MapSnapshot snapshot_of(std::int64_t revision, const FeatureSet& features) {
-  MapSnapshot snapshot{revision, map_hash(features), {}};
-  for (const auto& [id, feature] : features) snapshot.features.push_back(*feature);
-  return snapshot;
-}
-
 }  // namespace
 
 void save_map(const std::filesystem::path& path, const GeometricMap& map) {
   const SavedMap saved = map.saved();
-  const std::filesystem::path part = path.string() + ".part";
-  messaging::LogWriter writer(part.string());
+  messaging::PartFile file(path.string());
+  messaging::LogWriter writer(file.name());
   for (const MapEvent& event : saved.events) {
     const geomap::map_event_t message = to_message(event);
     writer.write(channels::kMapEvent, message.utime, message);
@@ -141,10 +140,16 @@ void save_map(const std::filesystem::path& path, const GeometricMap& map) {
   const geomap::map_state_t state = state_of(saved);
   writer.write(channels::kMapState, state.utime, state);
   writer.close();
-  std::filesystem::rename(part, path);
+  file.keep();
 }
 
 SavedMap load_map(const std::filesystem::path& path) { return MapFile(path).load(); }
+
+MapSnapshot snapshot_of(std::int64_t revision, const FeatureSet& features) {
+  MapSnapshot snapshot{revision, map_hash(features), {}};
+  for (const auto& [id, feature] : features) snapshot.features.push_back(*feature);
+  return snapshot;
+}
 
 MapSnapshot snapshot_of(const SavedMap& saved) {
   return snapshot_of(saved.revision, saved.features);

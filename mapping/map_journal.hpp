@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
 
 #include "mapping/geometric_map.hpp"
@@ -23,6 +23,7 @@ void save_map(const std::filesystem::path& path, const GeometricMap& map);
 SavedMap load_map(const std::filesystem::path& path);
 
 /// @brief Features, revision and hash, for exports.
+MapSnapshot snapshot_of(std::int64_t revision, const FeatureSet& features);
 MapSnapshot snapshot_of(const SavedMap& saved);
 MapSnapshot snapshot_of(const GeometricMap& map);
 

@@ -119,7 +119,8 @@ std::optional<MapFeature> from_message(const geomap::feature_state_t& message) {
 
   const bool sound = !feature.observations.empty() && feature.observations.front() == feature.id &&
                      std::is_sorted(feature.observations.begin(), feature.observations.end()) &&
-                     geometry::find_fault(feature.surface.polygon).empty();
+                     feature.moments.weight > 0.0 && feature.inliers > 0 &&
+                     find_fault(feature.surface) == EventFault::kNone;
   if (!sound) return std::nullopt;
   return feature;
 }

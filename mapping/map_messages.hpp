@@ -17,7 +17,7 @@ std::optional<MapEvent> from_message(const geomap::map_event_t& message);
 
 /// @brief A feature of the map, exact in every number.
 geomap::feature_state_t to_message(const MapFeature& feature);
-/// @brief The inverse; nothing when the polygon breaks its invariant, or the observations are
+/// @brief The inverse; nothing when the surface is not sound (find_fault), or the observations are
 /// empty, unsorted, or do not begin with the id.
 std::optional<MapFeature> from_message(const geomap::feature_state_t& message);
 

@@ -4,13 +4,12 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/angles.hpp"
 #include "mapping/fuse.hpp"
 #include "mapping/plane_similarity.hpp"
 
 namespace geomap::mapping {
 namespace {
-
-constexpr double kRadiansPerDegree = 0.017453292519943295;
 
 struct Partner {
   FeatureId id;
@@ -41,7 +40,7 @@ MapFeature merge(MapFeature older, const MapFeature& younger, const geometry::Po
   older.surface.polygon = united_outline(older.surface.polygon, added, config.outline_error);
   add_evidence(older, younger);
   refit(older);
-  rebase_where_needed(older, config.rebase_angle_deg * kRadiansPerDegree);
+  rebase_where_needed(older, geometry::radians(config.rebase_angle_deg));
   return older;
 }
 

@@ -50,6 +50,7 @@ MapFeature merge(const MapFeature& older, const MapFeature& younger) {
   MapFeature merged = older;
   geometry::PlanarPolygon& surface = merged.surface;
   add_evidence(merged, younger);
+  refit(merged);  // for the uncertainty; the plane is the paper's
 
   surface.plane = averaged(older, younger);
   surface.frame =
@@ -68,9 +69,8 @@ MapFeature merge(const MapFeature& older, const MapFeature& younger) {
 
 void PaperMerger::insert(MapFeature feature, FeatureStore& store) const {
   std::vector<FeatureId> candidates;
-  for (const FeatureId& id : store.near(feature.surface, config_.paper_distance)) {
-    const MapFeature& other = store.at(id);
-    if (coefficients_agree(feature, other, config_) && intersects(feature, other)) {
+  for (const auto& [id, other] : store.features()) {  // d at the origin says nothing of nearness
+    if (coefficients_agree(feature, *other, config_) && intersects(feature, *other)) {
       candidates.push_back(id);
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/angles.hpp"
 #include "geometry/polygon_clip.hpp"
 #include "mapping/fuse.hpp"
 
@@ -14,7 +15,8 @@ namespace {
 using geometry::Plane;
 using geometry::PlaneFit;
 
-constexpr double kRadiansPerDegree = 0.017453292519943295;
+// A corner of a grown polygon may lie this many times the distance away from it.
+constexpr double kMitreLimit = 3.0;
 
 // How well a feature is known. A single view, however small, is taken to be as good as a view can
 // be: that a small patch weighs little in a fusion does not make it likelier to belong anywhere.
@@ -53,8 +55,8 @@ double rms_distance(const Plane& a, const Plane& b, const geometry::AreaMoments&
   return a.normal.z() * std::sqrt(offset * offset + turn.dot(over.covariance * turn));
 }
 
-// Least overlap [m²] of two features: a share of the smaller one, or a common border half as long
-// as its side, which the gap tolerance has widened by half a gap.
+// Least overlap [m²] of two features: a share of the smaller one, or a common border: half as long
+// as its side when half the gap tolerance lies between them, shorter when they touch.
 double least_overlap(double smaller, const MergeConfig& config) {
   const double border = 0.5 * config.gap * 0.5 * std::sqrt(smaller);
   return std::max(config.min_overlap_area, std::min(config.min_overlap_share * smaller, border));
@@ -101,8 +103,8 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
   const double angle_variance =
       uncertainty(a, between, config).angle + uncertainty(b, between, config).angle;
   const double angle_limit =
-      std::clamp(3.0 * std::sqrt(angle_variance), config.min_angle_deg * kRadiansPerDegree,
-                 config.max_angle_deg * kRadiansPerDegree);
+      std::clamp(3.0 * std::sqrt(angle_variance), geometry::radians(config.min_angle_deg),
+                 geometry::radians(config.max_angle_deg));
   result.angle = geometry::angle_between(plane_a, plane_b);
   if (result.angle > angle_limit) {
     result.difference = Difference::kAngle;
@@ -114,10 +116,12 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
   const Eigen::Isometry3d T_frame_world = frame.T_plane_parent();
   const Plane a_in_frame = plane_a.transformed(T_frame_world);
   const Plane b_in_frame = plane_b.transformed(T_frame_world);
-  const Eigen::AlignedBox2d box_a = geometry::bounding_box(a.surface.polygon);
-  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(config.gap);
-  const Eigen::AlignedBox2d common = Eigen::AlignedBox2d(box_a.min() - reach, box_a.max() + reach)
-                                         .intersection(extent_in(frame, b.surface));
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kMitreLimit * config.gap);
+  const auto grown = [&](const Eigen::AlignedBox2d& box) {
+    return Eigen::AlignedBox2d(box.min() - reach, box.max() + reach);
+  };
+  const Eigen::AlignedBox2d common = grown(geometry::bounding_box(a.surface.polygon))
+                                         .intersection(grown(extent_in(frame, b.surface)));
   if (common.isEmpty()) {
     result.difference = Difference::kOverlap;
     return result;

@@ -22,7 +22,7 @@ class ConfigError : public std::runtime_error {
 
 /// @brief All settings of all programs, in force for one run: config/default.yaml, which is part of
 /// this library, overridden by a user's file, overridden by KEY=VALUE settings. Keys are dotted
-/// paths, for example `ransac.min_inliers`; only those of default.yaml exist.
+/// paths, for example `merge.gap`; only those of default.yaml exist.
 class Config {
  public:
   /// @brief What a setting holds. A number stays a number whether it is written 3 or 3.0.

@@ -55,7 +55,7 @@ void declare_common(CLI::App& app, const ProgramInfo& info, CommonArguments& com
   if (info.uses_config) {
     app.add_option("-c,--config", common.config_file, "YAML file with settings that differ")
         ->type_name("FILE");
-    app.add_option("--set", common.overrides, "One setting, for example ransac.min_inliers=100")
+    app.add_option("--set", common.overrides, "One setting, for example merge.gap=0.05")
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

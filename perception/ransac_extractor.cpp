@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <stdexcept>
 
+#include "geometry/angles.hpp"
 #include "perception/euclidean_clusters.hpp"
 #include "perception/merge_planes.hpp"
 #include "perception/noise_estimate.hpp"
@@ -30,7 +31,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+using geometry::radians;
 
 void require_valid(const geometry::RgbdFrame& frame) {
   const geometry::DepthImage& depth = frame.depth;
@@ -99,6 +100,9 @@ double even_density_depth(const RansacExtractorConfig& config,
   return kCellsOfVoxel * config.voxel_size * std::min(camera.fx, camera.fy) / DepthCells::kSide;
 }
 
+// As many as labels of 16 bits can name.
+constexpr std::size_t kMostPlanes = std::numeric_limits<std::int16_t>::max();
+
 std::vector<VoxelPlane> find_planes(const RansacExtractorConfig& config, const VoxelCloud& cloud,
                                     double reference, const DepthTolerance& tolerance,
                                     std::uint64_t seed) {
@@ -110,6 +114,7 @@ std::vector<VoxelPlane> find_planes(const RansacExtractorConfig& config, const V
   for (const std::vector<int>& cluster :
        euclidean_clusters(cloud, config.cluster_tolerance, reference, config.min_cluster_voxels)) {
     for (VoxelPlane& plane : ransac_planes(cloud, cluster, tolerance, settings, seed++)) {
+      if (planes.size() == kMostPlanes) return planes;
       planes.push_back(std::move(plane));
     }
   }

@@ -38,7 +38,7 @@ struct Outcome {
 
 Outcome replayed(const Events& events) {
   Pipeline pipeline(PipelineConfig{}, 1);
-  LogInput input(pipeline);
+  LogInput input(pipeline, {});
   for (const LogEvent& event : events) input.handle(event);
   pipeline.finish();
   return {mapping::map_hash(pipeline.map().features()), pipeline.keyframes().size(),
@@ -130,6 +130,7 @@ TEST(HostileLog, PosesThatAreNoPosesAreRefused) {
   EXPECT_EQ(no_rotation.refused.at("POSE").at("not_unit"), 8);
   const Outcome no_time = spoiled([](auto& pose) { pose.utime = -5; });
   EXPECT_EQ(no_time.hash, good.hash);
+  EXPECT_EQ(no_time.refused.at("POSE").at("bad_utime"), 8);
 }
 
 TEST(HostileLog, APoseAtTheEndOfTheUniverseIsSurvived) {
@@ -199,7 +200,7 @@ TEST(HostileLog, FramesThatComeAgainAreCountedAndDoNotCountTwice) {
 TEST(HostileLog, MissingFramesAreCountedByTheirSequenceNumbers) {
   const auto gaps = [](const std::vector<std::int64_t>& sequences) {
     Pipeline pipeline(PipelineConfig{}, 1);
-    LogInput input(pipeline);
+    LogInput input(pipeline, {});
     auto frame = decoded<geomap::rgbd_frame_t>(good_log()[2]);
     for (const std::int64_t sequence : sequences) {
       frame.sequence = sequence;

@@ -54,7 +54,7 @@ std::vector<ReferencePlane> reference_planes(const fs::path& file) {
 // One replay of a log with given settings.
 std::unique_ptr<Pipeline> replay(const fs::path& log, const PipelineConfig& config, int threads) {
   auto pipeline = std::make_unique<Pipeline>(config, threads);
-  LogInput input(*pipeline);
+  LogInput input(*pipeline, {});
   messaging::LogReader reader(log.string());
   while (const auto event = reader.next()) input.handle(*event);
   pipeline->finish();
@@ -109,7 +109,9 @@ TEST_F(Kitchen, AllFramesAreReadAndNoneIsRejected) {
 
 TEST_F(Kitchen, EachReferencePlaneIsExactlyOneFeature) {
   const std::vector<MapFeature> map = features(*moments_);
-  for (const ReferencePlane& reference : reference_planes(*folder_ / "reference_planes.yaml")) {
+  const auto references = reference_planes(*folder_ / "reference_planes.yaml");
+  ASSERT_EQ(references.size(), 5u);
+  for (const ReferencePlane& reference : references) {
     // The feature at the reference's centroid: coplanar parts elsewhere are features of their own.
     std::vector<const MapFeature*> found;
     for (const MapFeature& feature : map) {

@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <fstream>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "drivers/image_file.hpp"
 #include "geometry/polygon.hpp"
@@ -116,52 +119,43 @@ TEST(RecordedPlanes, TheKitchensReferencePlanesAreSeenStraight) {
 struct Visible {
   const char* name;
   int u, v;          // a pixel well inside it
-  int least_pixels;  // of the plane there; half of what was found, rounded
+  int least_pixels;  // of the plane there: half of what twenty seeds find at least
 };
 
-// A view of a RealSense: its floor first, then surfaces that stand upright on it.
+// A view of a RealSense: its floor, then surfaces that stand upright on it.
 struct RealSenseView {
   int number;
   std::optional<Visible> floor;
   std::vector<Visible> upright;
 };
 
+// Not asked for, as only some seeds find them: the walls of views 1 and 9 and the curtains of 2
+// and 9, all more than 2 m away, and the drawers of view 4.
 const std::vector<RealSenseView>& real_sense_views() {
   static const std::vector<RealSenseView> views = {
       {0,
-       Visible{"floor", 320, 430, 60000},
-       {{"wall", 230, 70, 20000}, {"door", 540, 130, 9000}, {"box", 250, 230, 23000}}},
-      {1,
-       Visible{"floor", 540, 455, 8000},
-       {{"box", 500, 215, 50000}, {"carton", 250, 330, 6000}, {"wall", 260, 40, 2700}}},
-      // No wall: a strip of curtain above the box.
-      {2,
-       Visible{"floor", 320, 430, 60000},
-       {{"curtain", 390, 25, 2000}, {"box", 390, 170, 33000}, {"carton", 70, 150, 6000}}},
+       Visible{"floor", 320, 430, 59000},
+       {{"wall", 230, 70, 19000}, {"door", 540, 130, 8700}, {"box", 250, 230, 23000}}},
+      {1, Visible{"floor", 540, 455, 8500}, {{"box", 500, 215, 49000}, {"carton", 250, 330, 5900}}},
+      {2, Visible{"floor", 320, 430, 57000}, {{"box", 390, 170, 32000}, {"carton", 70, 150, 6000}}},
       {3,
-       Visible{"floor", 320, 350, 90000},
-       {{"door frame", 20, 80, 3000}, {"door", 130, 90, 4500}, {"box", 320, 110, 15000}}},
-      // No wall: a chest of drawers.
+       Visible{"floor", 320, 350, 86000},
+       {{"door frame", 20, 80, 2900}, {"door", 130, 90, 3900}, {"box", 320, 110, 14000}}},
       {4,
-       Visible{"floor", 320, 420, 48000},
-       {{"drawers", 560, 145, 10000},
-        {"carton", 340, 225, 15000},
-        {"carton side", 220, 215, 9000}}},
-      // The camera lies 6 cm above the floor: depth is missing on most of it.
-      {5, std::nullopt, {{"door", 70, 160, 19000}, {"wall", 285, 110, 2700}}},
+       Visible{"floor", 320, 420, 46000},
+       {{"carton", 340, 225, 14000}, {"carton's side", 220, 215, 9000}}},
+      // 6 cm above the floor: depth is missing on most of it.
+      {5, std::nullopt, {{"door", 70, 160, 19000}, {"wall", 285, 110, 2600}}},
       {6,
-       Visible{"floor", 310, 360, 50000},
-       {{"wall", 225, 127, 1600}, {"curtain", 100, 60, 6000}}},
+       Visible{"floor", 310, 360, 49000},
+       {{"wall", 225, 127, 1300}, {"curtain", 100, 60, 5600}}},
       {7, Visible{"floor", 320, 400, 43000}, {{"wall", 75, 135, 2700}}},
       {8,
-       Visible{"floor", 340, 440, 34000},
-       {{"curtain", 220, 40, 2200}, {"carton", 40, 280, 8000}, {"carton side", 130, 270, 8000}}},
+       Visible{"floor", 340, 440, 33000},
+       {{"curtain", 220, 40, 2200}, {"carton", 40, 280, 8000}, {"carton's side", 130, 270, 8000}}},
       {9,
        Visible{"floor", 420, 440, 10000},
-       {{"wall", 213, 46, 600},
-        {"curtain", 395, 30, 2500},
-        {"box", 400, 270, 23000},
-        {"carton", 190, 290, 8000}}}};
+       {{"box", 400, 270, 23000}, {"carton", 190, 290, 8500}}}};
   return views;
 }
 
@@ -185,34 +179,40 @@ const geometry::PlaneObservation* plane_at(const std::vector<geometry::PlaneObse
   return nullptr;
 }
 
+void expect_visible(const RealSenseView& view, const geometry::CameraModel& camera,
+                    const std::vector<geometry::PlaneObservation>& planes) {
+  // Where the floor is not found: fitted apart from the extractor to what depth there is.
+  geometry::Plane floor{{0.017, -0.993, 0.114}, 0.06};
+  if (view.floor) {
+    const auto* found = plane_at(planes, camera, *view.floor);
+    ASSERT_NE(found, nullptr) << "floor";
+    floor = found->surface.plane;
+    EXPECT_GE(found->inliers, view.floor->least_pixels) << "floor";
+    EXPECT_LT(floor.normal.y(), -0.8) << "floor";
+  }
+  for (const Visible& surface : view.upright) {
+    const auto* found = plane_at(planes, camera, surface);
+    EXPECT_NE(found, nullptr) << surface.name;
+    if (found == nullptr) continue;
+    EXPECT_GE(found->inliers, surface.least_pixels) << surface.name;
+    // Beyond 2 m this camera bends walls: 8 degrees were seen.
+    const double tolerance = found->moments.centroid().z() > 2.0 ? 10.0 : 4.0;
+    const double angle = geometry::angle_between(found->surface.plane, floor);
+    EXPECT_NEAR(angle / kDegree, 90.0, tolerance) << surface.name;
+  }
+}
+
 TEST(RecordedPlanes, ViewsOfARealSenseShowTheirFloorAndWalls) {
   GEOMAP_REQUIRE_RECORDING(folder, "felix_planes");
-  // Where the floor cannot be found: fitted by hand to the readings view 5 has of it.
-  const geometry::Plane fitted_floor{{0.017, -0.993, 0.114}, 0.06};
   for (const RealSenseView& view : real_sense_views()) {
-    SCOPED_TRACE("view " + std::to_string(view.number));
     const geometry::RgbdFrame frame = read_real_sense(folder, view.number);
-    const auto planes = RansacExtractor().extract(frame, 1, std::nullopt).planes;
-    ASSERT_FALSE(planes.empty());
-    EXPECT_GT(planes[0].inliers, 20000);
-    EXPECT_LT(planes[0].rms, 0.01 * planes[0].moments.centroid().z());
-
-    geometry::Plane floor = fitted_floor;
-    if (view.floor) {
-      const auto* found = plane_at(planes, frame.depth_camera, *view.floor);
-      ASSERT_NE(found, nullptr) << "floor";
-      floor = found->surface.plane;
-      EXPECT_GE(found->inliers, view.floor->least_pixels) << "floor";
-      EXPECT_LT(floor.normal.y(), -0.8) << "floor";
-    }
-    for (const Visible& surface : view.upright) {
-      const auto* found = plane_at(planes, frame.depth_camera, surface);
-      ASSERT_NE(found, nullptr) << surface.name;
-      EXPECT_GE(found->inliers, surface.least_pixels) << surface.name;
-      const double angle = geometry::angle_between(found->surface.plane, floor);
-      // Beyond 2 m this camera bends walls: 10 degrees were seen.
-      const double tolerance = found->moments.centroid().z() > 2.0 ? 12.0 : 4.0;
-      EXPECT_NEAR(angle / kDegree, 90.0, tolerance) << surface.name;
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      SCOPED_TRACE("view " + std::to_string(view.number) + ", seed " + std::to_string(seed));
+      const auto planes = RansacExtractor().extract(frame, seed, std::nullopt).planes;
+      ASSERT_FALSE(planes.empty());
+      EXPECT_GT(planes[0].inliers, 20000);
+      EXPECT_LT(planes[0].rms, 0.01 * planes[0].moments.centroid().z());
+      expect_visible(view, frame.depth_camera, planes);
     }
   }
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <system_error>
 
-namespace geomap::logs {
+namespace geomap::messaging {
 
 /// @brief A file that appears when it is whole or not at all: it is written under name(),
 /// `out`.part, and keep() gives it its name, replacing an older one. Without keep() it is removed.
@@ -15,7 +15,7 @@ class PartFile {
   /// @throws std::runtime_error when `out` exists and is not a regular file.
   explicit PartFile(const std::string& out) : out_(out), part_(out + ".part") {
     if (std::filesystem::exists(out_) && !std::filesystem::is_regular_file(out_)) {
-      throw std::runtime_error(out + ": exists and is no regular file, so no log can replace it");
+      throw std::runtime_error(out + ": exists and is no regular file");
     }
   }
   ~PartFile() {
@@ -38,4 +38,4 @@ class PartFile {
   bool kept_ = false;
 };
 
-}  // namespace geomap::logs
+}  // namespace geomap::messaging
