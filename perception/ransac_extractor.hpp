@@ -22,7 +22,7 @@ struct RansacExtractorConfig {
   double voxel_size = 0.04;         // [m], growing with depth where pixels become sparse
   double cluster_tolerance = 0.06;  // [m], growing likewise
   int min_cluster_voxels = 8;
-  int ransac_iterations = 100;         // at most, per plane
+  int ransac_iterations = 300;         // at most, per plane
   double max_normal_angle_deg = 25.0;  // between a point's normal and its plane's
   double max_merge_angle_deg = 8.0;    // between pieces of one surface
 
