@@ -37,12 +37,12 @@ void LogWriter::write_bytes(const std::string& channel, std::int64_t utime,
 }
 
 void LogWriter::flush() {
+  if (!file_) return;
   errno = 0;
   if (std::fflush(file_->getFilePtr()) != 0) fail();
 }
 
 void LogWriter::close() {
-  if (!file_) return;
   flush();
   file_.reset();
 }
