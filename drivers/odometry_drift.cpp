@@ -2,9 +2,10 @@
 #include "drivers/odometry_drift.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <stdexcept>
+
+#include "geometry/angles.hpp"
 
 namespace geomap::drivers {
 namespace {
@@ -63,9 +64,8 @@ OdometryDrift::OdometryDrift(const OdometryDriftConfig& config) {
   const std::vector<std::string> messages = config.validate();
   if (!messages.empty()) throw std::invalid_argument(messages.front());
   std::mt19937_64 generator(static_cast<std::uint64_t>(config.seed));
-  constexpr double kRadian = std::numbers::pi / 180.0;
   bias_.head<3>() = config.drift_m_per_m * random_direction(generator);
-  bias_.tail<3>() = config.drift_deg_per_m * kRadian * random_direction(generator);
+  bias_.tail<3>() = geometry::radians(config.drift_deg_per_m) * random_direction(generator);
 }
 
 Eigen::Isometry3d OdometryDrift::next(const Eigen::Isometry3d& T_world_body) {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "geometry/angles.hpp"
 #include "mapping/export_svg_axes.hpp"
 #include "mapping/export_svg_label.hpp"
 #include "mapping/export_svg_style.hpp"
@@ -189,7 +189,7 @@ void draw_labels(SvgCanvas& canvas, const std::vector<Shape>& shapes) {
 // "-y" for a direction along an axis, else degrees.
 std::string direction_text(double heading) {
   constexpr std::array<std::string_view, 4> kAxes = {"+x", "+y", "-x", "-y"};
-  const double degrees = heading * 180.0 / std::numbers::pi;
+  const double degrees = geometry::degrees(heading);
   const double quarters = std::round(degrees / 90.0);
   if (std::abs(degrees - 90.0 * quarters) < 0.5) {
     return std::string(kAxes[(static_cast<std::size_t>(quarters + 400.0)) % 4]);

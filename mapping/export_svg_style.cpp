@@ -2,7 +2,8 @@
 #include "mapping/export_svg_style.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "geometry/angles.hpp"
 
 namespace geomap::mapping {
 namespace {
@@ -21,7 +22,7 @@ Rgb mix(const Rgb& a, const Rgb& b, double share_of_b) {
 
 Orientation orientation_of(const MapFeature& feature) {
   const double up = feature.surface.plane.normal.z();
-  const double limit = 15.0 * std::numbers::pi / 180.0;
+  const double limit = geometry::radians(15.0);
   if (up > std::cos(limit)) return Orientation::kUp;
   if (up < -std::cos(limit)) return Orientation::kDown;
   return std::abs(up) < std::sin(limit) ? Orientation::kUpright : Orientation::kInclined;

@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "geometry/angles.hpp"
 #include "mapping/export_features.hpp"
 
 namespace geomap::mapping {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kObliqueTurn = 35.0 * kDegree;
-constexpr double kObliqueDip = 32.0 * kDegree;
+constexpr double kObliqueTurn = geometry::radians(35.0);
+constexpr double kObliqueDip = geometry::radians(32.0);
 constexpr double kEdgeOn = 0.05;  // cosine; such a face is hardly more than a line
 constexpr double kDepthTolerance =
     0.03;  // [m] by which faces of a real map reach through each other
@@ -91,12 +90,12 @@ ProjectedFeature project_feature(const MapFeature& feature, std::size_t number,
 }  // namespace
 
 double front_heading(std::span<const MapFeature> features) {
-  double heading = 90.0 * kDegree;
+  double heading = geometry::radians(90.0);
   double largest = 0.0;
   for (const MapFeature* feature : sorted_by_id(features)) {
     const Eigen::Vector3d& normal = feature->surface.plane.normal;
     const double area = geometry::area(feature->surface.polygon);
-    if (std::abs(normal.z()) > std::sin(15.0 * kDegree) || area <= largest) continue;
+    if (std::abs(normal.z()) > std::sin(geometry::radians(15.0)) || area <= largest) continue;
     largest = area;
     heading = std::atan2(-normal.y(), -normal.x());
   }
@@ -112,7 +111,7 @@ double oblique_turn(std::span<const MapFeature> features, double heading) {
 ViewAxes view_axes(SvgView view, double heading, double turn) {
   switch (view) {
     case SvgView::kTop:
-      return axes_along(heading, 90.0 * kDegree);
+      return axes_along(heading, geometry::radians(90.0));
     case SvgView::kFront:
       return axes_along(heading, 0.0);
     case SvgView::kOblique:

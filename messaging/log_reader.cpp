@@ -33,6 +33,10 @@ struct LogReader::Header {
   std::int64_t channel_length = 0;
   std::int64_t data_length = 0;
   bool is_cut_short = false;
+
+  std::int64_t event_size() const {
+    return static_cast<std::int64_t>(kHeaderSize) + channel_length + data_length;
+  }
 };
 
 LogReader::LogReader(const std::string& path) {
@@ -51,16 +55,45 @@ LogReader::LogReader(const std::string& path) {
 }
 
 std::optional<LogEvent> LogReader::next() {
-  const std::optional<Header> header = find_header();
-  if (!header) return std::nullopt;
-  std::optional<LogEvent> event = read_event(*header);
-  if (event) {
-    position_ = file_position_;
-  } else {  // the disk failed, or the file was cut while it was read
-    damages_.push_back({position_, size_ - position_, true});
-    position_ = size_;
+  while (const std::optional<Header> header = find_header()) {
+    std::optional<LogEvent> event = read_event(*header);
+    if (!event) {  // the disk failed, or the file was cut while it was read
+      damages_.push_back({position_, size_ - position_, true});
+      position_ = size_;
+      return std::nullopt;
+    }
+    const std::int64_t end = file_position_;
+    if (const auto swallowed = find_swallowed_event(*event, end)) {
+      damages_.push_back({position_, *swallowed - position_, false});
+      position_ = *swallowed;
+      continue;
+    }
+    position_ = end;
+    return event;
   }
-  return event;
+  return std::nullopt;
+}
+
+/// A header whose length was damaged may claim the events behind it. What ends where nothing
+/// begins, and holds a sound event, is such a one.
+std::optional<std::int64_t> LogReader::find_swallowed_event(const LogEvent& event,
+                                                            std::int64_t end) {
+  if (ends_well(end)) return std::nullopt;
+  const std::int64_t data_at = end - static_cast<std::int64_t>(event.data.size());
+  for (auto at = event.data.begin();; ++at) {
+    at = std::search(at, event.data.end(), kMagic.begin(), kMagic.end());
+    if (at == event.data.end()) return std::nullopt;
+    const std::int64_t offset = data_at + (at - event.data.begin());
+    const std::optional<Header> header = read_header(offset);
+    if (header && !header->is_cut_short && ends_well(offset + header->event_size())) return offset;
+  }
+}
+
+/// True where the file ends or the next event begins.
+bool LogReader::ends_well(std::int64_t offset) {
+  std::array<std::uint8_t, kMagic.size()> bytes{};
+  return offset == size_ ||
+         (read_at(offset, bytes.data(), bytes.size()) == bytes.size() && bytes == kMagic);
 }
 
 /// Moves to the next sound header and notes what it passes over.
@@ -100,8 +133,7 @@ std::optional<LogReader::Header> LogReader::read_header(std::int64_t offset) {
       header.data_length > kLargestData) {
     return std::nullopt;
   }
-  const auto header_size = static_cast<std::int64_t>(kHeaderSize);
-  header.is_cut_short = offset + header_size + header.channel_length + header.data_length > size_;
+  header.is_cut_short = offset + header.event_size() > size_;
   return header;
 }
 

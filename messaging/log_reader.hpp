@@ -58,6 +58,8 @@ class LogReader {
 
   std::optional<Header> read_header(std::int64_t offset);
   std::optional<Header> find_header();
+  std::optional<std::int64_t> find_swallowed_event(const LogEvent& event, std::int64_t end);
+  bool ends_well(std::int64_t offset);
   std::int64_t find_magic(std::int64_t offset);
   std::size_t read_at(std::int64_t offset, void* bytes, std::size_t size);
   std::optional<LogEvent> read_event(const Header& header);

@@ -2,9 +2,9 @@
 #include "perception/keyframe_selector.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "geometry/angles.hpp"
 #include "perception/rigid_transform.hpp"
 
 namespace geomap::perception {
@@ -28,7 +28,7 @@ KeyframeSelector::KeyframeSelector(const KeyframeConfig& config) : config_(confi
 bool KeyframeSelector::is_due(const Eigen::Isometry3d& T_world_camera) const {
   if (!last_) return true;
   const double moved = (T_world_camera.translation() - last_->translation()).norm();
-  const double turned_deg = angle_between(*last_, T_world_camera) * 180.0 / std::numbers::pi;
+  const double turned_deg = geometry::degrees(angle_between(*last_, T_world_camera));
   return moved >= config_.min_translation || turned_deg >= config_.min_rotation_deg;
 }
 

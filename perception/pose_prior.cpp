@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "geometry/angles.hpp"
 #include "perception/rigid_transform.hpp"
 
 namespace geomap::perception {
@@ -16,8 +16,7 @@ std::int64_t max_gap_us(const PriorConfig& config) {
 }
 
 PoseBufferLimits limits_of(const PriorConfig& config) {
-  return {max_gap_us(config), config.jump_distance,
-          config.jump_angle_deg * std::numbers::pi / 180.0};
+  return {max_gap_us(config), config.jump_distance, geometry::radians(config.jump_angle_deg)};
 }
 
 bool all_finite(const std::vector<double>& values) {

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "drivers/seven_scenes_source.hpp"
+#include "geometry/angles.hpp"
 #include "geometry/polygon_clip.hpp"
 #include "logs/import.hpp"
 #include "logs/log_input.hpp"
@@ -27,8 +28,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using mapping::MapFeature;
-
-constexpr double kRadiansPerDegree = 0.017453292519943295;
 
 struct ReferencePlane {
   std::string name;
@@ -118,13 +117,13 @@ TEST_F(Kitchen, EachReferencePlaneIsExactlyOneFeature) {
       const double angle = geometry::angle_between(feature.surface.plane, reference.plane);
       const double distance = std::abs(feature.surface.plane.signed_distance(reference.centroid));
       const Eigen::Vector3d at = feature.surface.frame.T_plane_parent() * reference.centroid;
-      if (angle > 1.5 * kRadiansPerDegree || distance > 0.025 ||
+      if (angle > geometry::radians(1.5) || distance > 0.025 ||
           geometry::area(feature.surface.polygon) < 0.05 ||
           !geometry::contains(geometry::offset(feature.surface.polygon, 0.15), at.head<2>())) {
         continue;
       }
       found.push_back(&feature);
-      std::cout << reference.name << ": " << angle / kRadiansPerDegree << " deg, "
+      std::cout << reference.name << ": " << geometry::degrees(angle) << " deg, "
                 << 100.0 * distance << " cm, " << geometry::area(feature.surface.polygon) << " m2, "
                 << feature.observations.size() << " observations\n";
     }
@@ -271,7 +270,7 @@ TEST_F(Kitchen, FusingInAnotherOrderGivesTheSameLargeFeatures) {
     const bool found = std::any_of(theirs.begin(), theirs.end(), [&](const MapFeature& candidate) {
       return stacked_area(feature, candidate) > 0.5 * area &&
              geometry::angle_between(feature.surface.plane, candidate.surface.plane) <
-                 0.1 * kRadiansPerDegree &&
+                 geometry::radians(0.1) &&
              std::abs(candidate.surface.plane.signed_distance(at)) < 0.002;
     });
     matched += found;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 #include <stdexcept>
 
@@ -111,6 +112,24 @@ TEST_F(LogReaderTest, BehindADamagedHeaderReadingResumes) {
     EXPECT_EQ(reader.damages()[0].size, static_cast<std::int64_t>(offsets_[8] - offsets_[7]));
     EXPECT_FALSE(reader.truncated());
   }
+}
+
+TEST_F(LogReaderTest, ALengthThatClaimsTheEventsBehindItLosesOnlyItsOwn) {
+  const std::string file = write_log();
+  std::string bytes = read_file(file);
+  const std::size_t length_at = offsets_[5] + kHeaderSize - 4;
+  const auto claimed = written_[5].data.size() + 3000;
+  for (std::size_t i = 0; i < 4; ++i) {
+    bytes[length_at + i] = static_cast<char>(static_cast<unsigned char>(claimed >> (24 - 8 * i)));
+  }
+  LogReader reader(write_file("claims.lcmlog", bytes));
+  std::vector<std::size_t> others(20);
+  std::iota(others.begin(), others.end(), std::size_t{0});
+  others.erase(others.begin() + 5);
+  EXPECT_EQ(read_all(reader), others);
+  ASSERT_EQ(reader.damages().size(), 1u);
+  EXPECT_EQ(reader.damages()[0].offset, static_cast<std::int64_t>(offsets_[5]));
+  EXPECT_EQ(reader.damages()[0].size, static_cast<std::int64_t>(offsets_[6] - offsets_[5]));
 }
 
 TEST_F(LogReaderTest, AHugeLengthInAHeaderIsNotAllocated) {
