@@ -19,6 +19,8 @@ if(GEOMAP_SANITIZE)
   add_compile_options(-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  # g++ 12 sees uninitialised memory in the standard library's own templates when it instruments them.
+  target_compile_options(geomap_flags INTERFACE -Wno-maybe-uninitialized)
 endif()
 
 # geomap_library(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): one static library of one folder.

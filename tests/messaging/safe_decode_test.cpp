@@ -32,8 +32,11 @@ constexpr std::size_t kMemoryPerByte = 64;
 template <class Message>
 class SafeDecodeOf : public ::testing::Test {
  protected:
-  /// The layouts are read at first use; the tests measure what a message costs after that.
-  static void SetUpTestSuite() { known_schemas(); }
+  /// Layouts and limits are read at first use; the tests measure what a message costs after that.
+  static void SetUpTestSuite() {
+    std::mt19937 random(1);
+    decode<Message>(random_message(schema(), random).bytes);
+  }
   static const MessageSchema& schema() { return *known_schemas().find(Message::getHash()); }
   std::mt19937 random_{20121};
 };
