@@ -80,6 +80,7 @@ void run(Pass& pass, const std::string& log) {
     }
   }
   pass.pipeline.finish();
+  if (!pass.stopped) progress.update(pass.pipeline.frames(), pass.pipeline.frames());
   pass.log_damaged = !reader.damages().empty();
   pass.seconds = stopwatch.seconds();
 }
