@@ -62,8 +62,7 @@ std::optional<MapFeature> feature_of(const Observation& observation, std::int32_
                         .capped(view_weight(seen, config));
   feature.inliers = seen.inliers;
   feature.color = seen.color;
-  if (!feature.moments.fit(Eigen::Vector3d::UnitZ())) return std::nullopt;
-  refit(feature);
+  if (!refit(feature)) return std::nullopt;
   return feature;
 }
 
@@ -88,13 +87,14 @@ void add_evidence(MapFeature& feature, const MapFeature& other) {
   feature.inliers += other.inliers;
 }
 
-void refit(MapFeature& feature) {
+bool refit(MapFeature& feature) {
   const auto fit = feature.moments.fit(Eigen::Vector3d::UnitZ());
-  if (!fit) return;
+  if (!fit) return false;
   feature.surface.plane = fit->plane.transformed(feature.surface.frame.T_parent_plane());
   feature.rms = fit->rms;
   feature.sigma_angle = fit->sigma_angle();
   feature.sigma_d = fit->sigma_offset(fit->centroid);
+  return true;
 }
 
 void rebase_where_needed(MapFeature& feature, double angle_limit) {

@@ -25,9 +25,9 @@ std::optional<MapFeature> feature_of(const Observation& observation, std::int32_
 /// Leaves plane and outline alone. `other`'s frame may differ.
 void add_evidence(MapFeature& feature, const MapFeature& other);
 
-/// @brief Plane, rms and uncertainty from the feature's moments; keeps the plane it has where the
-/// moments span none.
-void refit(MapFeature& feature);
+/// @brief Plane, rms and uncertainty from the feature's moments. @return false, and the feature as
+/// it was, where the moments span no plane.
+bool refit(MapFeature& feature);
 
 /// @brief Moves the polygon's frame onto the plane when the plane has turned against it or the
 /// frame's origin has left the polygon's bounding box (numbers stay small far from the world's

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "geometry/angles.hpp"
 #include "geometry/polygon_clip.hpp"
@@ -20,24 +21,33 @@ constexpr double kMitreLimit = 3.0;
 
 // How well a feature is known. A single view, however small, is taken to be as good as a view can
 // be: that a small patch weighs little in a fusion does not make it likelier to belong anywhere.
-struct Uncertainty {
-  double view = 0.0;    // variance of one view's offset [m²]
-  double angle = 0.0;   // variance of the normal [rad²]
-  double offset = 0.0;  // variance of the offset at a point [m²]
-};
+class Uncertainty {
+ public:
+  Uncertainty(const MapFeature& feature, const MergeConfig& config)
+      : view_(view_variance(feature.moments, config)),
+        fit_(feature.moments.fit(Eigen::Vector3d::UnitZ())),
+        T_plane_world_(feature.surface.frame.T_plane_parent()) {}
 
-Uncertainty uncertainty(const MapFeature& feature, const Eigen::Vector3d& at_world,
-                        const MergeConfig& config) {
-  Uncertainty result;
-  result.view = view_variance(feature.moments, config);
-  const auto fit = feature.moments.fit(Eigen::Vector3d::UnitZ());
-  if (!fit) return result;
-  const double sigma_angle = fit->sigma_angle();
-  const double sigma_offset = fit->sigma_offset(feature.surface.frame.T_plane_parent() * at_world);
-  result.angle = std::min(sigma_angle * sigma_angle, result.view / fit->extent.y());
-  result.offset = std::min(sigma_offset * sigma_offset, result.view);
-  return result;
-}
+  // Variance of one view's offset [m²].
+  double view() const { return view_; }
+  // Variance of the normal [rad²].
+  double angle() const {
+    if (!fit_) return 0.0;
+    const double sigma = fit_->sigma_angle();
+    return std::min(sigma * sigma, view_ / fit_->extent.y());
+  }
+  // Variance of the offset at a point of the world [m²].
+  double offset(const Eigen::Vector3d& at_world) const {
+    if (!fit_) return 0.0;
+    const double sigma = fit_->sigma_offset(T_plane_world_ * at_world);
+    return std::min(sigma * sigma, view_);
+  }
+
+ private:
+  double view_;
+  std::optional<PlaneFit> fit_;
+  Eigen::Isometry3d T_plane_world_;
+};
 
 // Height [m] of a plane above the point `at` of the frame it is given in.
 double height_at(const Plane& plane, const Eigen::Vector2d& at) {
@@ -98,14 +108,12 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
     return result;
   }
 
-  const Eigen::Vector3d between =
-      0.5 * (a.surface.frame.origin + b.surface.frame.origin);  // the angle is the same everywhere
-  const double angle_variance =
-      uncertainty(a, between, config).angle + uncertainty(b, between, config).angle;
-  const double angle_limit =
-      std::clamp(3.0 * std::sqrt(angle_variance), geometry::radians(config.min_angle_deg),
-                 geometry::radians(config.max_angle_deg));
   result.angle = geometry::angle_between(plane_a, plane_b);
+  const Uncertainty of_a(a, config);
+  const Uncertainty of_b(b, config);
+  const double angle_limit =
+      std::clamp(3.0 * std::sqrt(of_a.angle() + of_b.angle()),
+                 geometry::radians(config.min_angle_deg), geometry::radians(config.max_angle_deg));
   if (result.angle > angle_limit) {
     result.difference = Difference::kAngle;
     return result;
@@ -146,11 +154,9 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
 
   result.distance = rms_distance(a_in_frame, b_in_frame, overlap);
   const Eigen::Vector3d where = a.surface.lift(overlap.centroid);
-  const Uncertainty of_a = uncertainty(a, where, config);
-  const Uncertainty of_b = uncertainty(b, where, config);
-  const double distance_limit =
-      std::clamp(3.0 * std::sqrt(of_a.offset + of_b.offset + of_a.view + of_b.view),
-                 config.min_distance, config.max_distance);
+  const double distance_limit = std::clamp(
+      3.0 * std::sqrt(of_a.offset(where) + of_b.offset(where) + of_a.view() + of_b.view()),
+      config.min_distance, config.max_distance);
   if (result.distance > distance_limit) result.difference = Difference::kDistance;
   return result;
 }

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "messaging/big_endian.hpp"
+
 namespace geomap::messaging {
 namespace {
 
@@ -17,12 +19,6 @@ constexpr std::array<std::uint8_t, 4> kMagic = {0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t kHeaderSize = 28;
 constexpr std::int64_t kLongestChannel = 255;  // LCM itself sends 63
 constexpr std::int64_t kLargestData = std::int64_t{1} << 30;
-
-std::uint64_t read_unsigned(const std::uint8_t* bytes, std::size_t size) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < size; ++i) value = (value << 8) | bytes[i];
-  return value;
-}
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "messaging/big_endian.hpp"
 #include "messaging/message_schema.hpp"
 
 namespace geomap::messaging {
@@ -43,13 +44,6 @@ std::size_t largest_size(const MessageSchema& schema) {
   };
   const auto found = kLarge.find(schema.name);
   return found == kLarge.end() ? kMebibyte : found->second;
-}
-
-/// Big-endian whole number of 1 to 8 bytes.
-std::uint64_t read_unsigned(const std::uint8_t* bytes, std::size_t size) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < size; ++i) value = (value << 8) | bytes[i];
-  return value;
 }
 
 std::int64_t read_signed(const std::uint8_t* bytes, std::size_t size) {
