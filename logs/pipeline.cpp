@@ -5,35 +5,31 @@
 
 #include "messaging/convert_frame.hpp"
 #include "perception/ransac_extractor.hpp"
-#include "perception/trust_prior.hpp"
 
 namespace geomap::logs {
 
 Pipeline::Pipeline(const PipelineConfig& config, int threads)
     : config_(config),
       threads_(static_cast<std::size_t>(threads)),
-      prior_(config.prior),
-      selector_(config.keyframes),
-      registration_(std::make_unique<perception::TrustPrior>(config.registration)),
+      tracker_(config.tracker),
       extractor_(std::make_unique<perception::RansacExtractor>(config.ransac)),
-      point_map_(config.point_map),
       map_(config.merge, config.history) {
   if (threads < 1) throw std::invalid_argument("threads must be at least 1");
 }
 
 void Pipeline::add_pose(std::int64_t utime, const Eigen::Isometry3d& T_odom_body) {
-  prior_.add_pose(utime, T_odom_body);
+  tracker_.prior().add_pose(utime, T_odom_body);
   process_ready();
 }
 
 void Pipeline::add_camera_to_body(std::int64_t utime, const Eigen::Isometry3d& T_body_camera) {
-  prior_.add_camera_to_body(utime, T_body_camera);
+  tracker_.prior().add_camera_to_body(utime, T_body_camera);
   process_ready();
 }
 
 void Pipeline::add_frame(geomap::rgbd_frame_t message) {
   ++frames_;
-  prior_.note_input(message.utime);
+  tracker_.prior().note_input(message.utime);
   waiting_.push_back(std::move(message));
   process_ready();
 }
@@ -44,7 +40,7 @@ void Pipeline::finish() {
 }
 
 void Pipeline::process_ready() {
-  while (!waiting_.empty() && prior_.is_ready(waiting_.front().utime)) {
+  while (!waiting_.empty() && tracker_.prior().is_ready(waiting_.front().utime)) {
     process_next();
   }
 }
@@ -55,50 +51,31 @@ void Pipeline::process_next() {
   process(message);
 }
 
-// One frame, in the order of the paper's section III: prior, key frame?, registration, point map,
+// One frame, in the order of the paper's section III: tracking, which ends in the point map, then
 // planes; merging follows when the planes are there.
 void Pipeline::process(const geomap::rgbd_frame_t& message) {
-  const perception::Prior prior = prior_.prior_at(message.utime);
-  if (!prior.T_world_camera) {
-    ++rejected_[std::string(perception::to_string(prior.reason))];
-    return;
-  }
-  tracked_.emplace_back(message.utime, *prior.T_world_camera);
-  if (!selector_.is_due(*prior.T_world_camera)) return;
-  if (accepted_.contains(message.utime)) {
-    ++rejected_["repeated_utime"];
-    return;
-  }
-
   KeyframeRecord record;
   record.id = message.utime;
-  const Stopwatch decoding;
-  messaging::FrameResult decoded = messaging::to_frame(message);
-  record.times.decode = decoding.seconds();
-  if (!decoded.frame) {
-    ++rejected_[messaging::to_string(decoded.fault)];
-    return;
+  messaging::FrameResult decoded;
+  const auto image = [&]() -> const geometry::RgbdFrame* {
+    const Stopwatch decoding;
+    decoded = messaging::to_frame(message);
+    record.times.decode = decoding.seconds();
+    return decoded.frame ? &*decoded.frame : nullptr;
+  };
+  const Stopwatch tracking;
+  perception::Tracked tracked = tracker_.track(message.utime, image);
+  record.times.registration = tracking.seconds() - record.times.decode;
+  if (tracked.status == perception::TrackStatus::kNoImage) {
+    tracked.reason = messaging::to_string(decoded.fault);
   }
+  if (track_listener_) track_listener_(message, tracked, tracker_.prior().T_world_odom());
+  if (!tracked.reason.empty()) ++rejected_[tracked.reason];
+  if (tracked.T_world_camera) tracked_.emplace_back(message.utime, *tracked.T_world_camera);
+  if (tracked.status != perception::TrackStatus::kKeyframe) return;
+  record.T_world_camera = *tracked.T_world_camera;
   record.pixels = static_cast<std::int64_t>(decoded.frame->depth.millimetres.size());
-
-  const Stopwatch registering;
-  const perception::RegistrationResult registered =
-      registration_->align(*decoded.frame, *prior.T_world_camera);
-  if (!registered.accepted) {
-    ++rejected_[std::string(perception::to_string(registered.reason))];
-    return;
-  }
-  try {
-    point_map_.insert(record.id, *decoded.frame, registered.T_world_camera);
-  } catch (const std::invalid_argument&) {  // farther from the origin than its numbers reach
-    ++rejected_["out_of_range"];
-    return;
-  }
-  selector_.accept(registered.T_world_camera);
-  accepted_.insert(record.id);
-  record.T_world_camera = registered.T_world_camera;
-  record.times.registration = registering.seconds();
-
+  record.registration = *tracked.registration;
   start_extraction(record, std::move(*decoded.frame));
 }
 
@@ -135,7 +112,7 @@ void Pipeline::merge_oldest() {
   record.map_features = static_cast<int>(map_.features().size());
   if (applied.fault != mapping::EventFault::kNone) {
     ++rejected_[mapping::to_string(applied.fault)];
-    point_map_.remove(record.id);
+    tracker_.remove(record.id);
     return;
   }
   keyframes_.push_back(record);

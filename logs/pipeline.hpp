@@ -8,7 +8,6 @@
 #include <future>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,11 +16,8 @@
 #include "logs/pipeline_config.hpp"
 #include "logs/stage_times.hpp"
 #include "mapping/geometric_map.hpp"
-#include "perception/keyframe_selector.hpp"
 #include "perception/plane_extractor.hpp"
-#include "perception/point_map.hpp"
-#include "perception/pose_prior.hpp"
-#include "perception/registration.hpp"
+#include "perception/tracker.hpp"
 
 namespace geomap::logs {
 
@@ -34,6 +30,7 @@ struct KeyframeRecord {
   int map_features = 0;       // in the map after it
   double noise_factor = 1.0;  // of the depth noise model
   StageTimes times;
+  perception::RegistrationResult registration;
 };
 
 /// @brief Camera pose of a tracked frame, T_world_camera.
@@ -49,11 +46,17 @@ class Pipeline {
   using KeyframeListener = std::function<void(const KeyframeRecord&, const mapping::Observation&,
                                               const mapping::MapChange&)>;
 
+  /// @brief Called for each frame once it has been tracked, with T_world_odom as it is then.
+  using TrackListener = std::function<void(const geomap::rgbd_frame_t&, const perception::Tracked&,
+                                           const Eigen::Isometry3d&)>;
+
   /// @param threads at least 1; beyond 1, that many key frames are extracted at the same time.
   /// @throws std::invalid_argument when a setting is not valid.
   Pipeline(const PipelineConfig& config, int threads);
 
   void on_keyframe(KeyframeListener listener) { listener_ = std::move(listener); }
+
+  void on_tracked(TrackListener listener) { track_listener_ = std::move(listener); }
 
   void add_pose(std::int64_t utime, const Eigen::Isometry3d& T_odom_body);
   void add_camera_to_body(std::int64_t utime, const Eigen::Isometry3d& T_body_camera);
@@ -67,7 +70,8 @@ class Pipeline {
   const std::map<std::string, std::int64_t>& rejected() const { return rejected_; }
   const std::vector<TimedPose>& tracked() const { return tracked_; }
   const mapping::GeometricMap& map() const { return map_; }
-  const perception::PointMap& point_map() const { return point_map_; }
+  const perception::PointMap& point_map() const { return tracker_.point_map(); }
+  const perception::Tracker& tracker() const { return tracker_; }
 
  private:
   struct Extraction {
@@ -83,19 +87,16 @@ class Pipeline {
 
   PipelineConfig config_;
   std::size_t threads_;
-  perception::PosePrior prior_;
-  perception::KeyframeSelector selector_;
-  std::unique_ptr<perception::Registration> registration_;
+  perception::Tracker tracker_;
   std::unique_ptr<perception::PlaneExtractor> extractor_;
-  perception::PointMap point_map_;
   mapping::GeometricMap map_;
 
   std::deque<geomap::rgbd_frame_t> waiting_;  // for their prior
   std::deque<Extraction> extractions_;        // in the order of the key frames
   KeyframeListener listener_;
+  TrackListener track_listener_;
 
   std::int64_t frames_ = 0;
-  std::set<std::int64_t> accepted_;  // ids of key frames, merged or under way
   std::vector<KeyframeRecord> keyframes_;
   std::map<std::string, std::int64_t> rejected_;
   std::vector<TimedPose> tracked_;

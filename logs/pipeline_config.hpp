@@ -5,11 +5,8 @@
 #include "mapping/merge_config.hpp"
 #include "messaging/camera_config.hpp"
 #include "messaging/config.hpp"
-#include "perception/keyframe_selector.hpp"
-#include "perception/point_map.hpp"
-#include "perception/pose_prior.hpp"
 #include "perception/ransac_extractor.hpp"
-#include "perception/trust_prior.hpp"
+#include "perception/tracker.hpp"
 
 namespace geomap::logs {
 
@@ -17,10 +14,7 @@ namespace geomap::logs {
 struct PipelineConfig {
   messaging::CameraConfig driver_depth;  // section driver_camera.depth
   messaging::CameraConfig driver_color;  // section driver_camera.color
-  perception::PriorConfig prior;
-  perception::KeyframeConfig keyframes;
-  perception::TrustPriorConfig registration;
-  perception::PointMapConfig point_map;
+  perception::TrackerConfig tracker;  // prior, keyframes, registration, depth_correction, point_map
   perception::RansacExtractorConfig ransac;
   mapping::MergeConfig merge;
   mapping::HistoryConfig history;

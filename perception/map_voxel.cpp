@@ -3,27 +3,21 @@
 
 namespace geomap::perception {
 
-void MapVoxel::add(const std::array<std::int64_t, 3>& offset, const std::uint8_t* rgb) {
-  ++count;
+template <int sign>
+void VoxelReading::apply(MapVoxel& voxel) const {
+  voxel.count += static_cast<std::uint32_t>(sign);  // unsigned: wraps to a subtraction
   for (std::size_t i = 0, k = 0; i < 3; ++i) {
-    first[i] += offset[i];
-    for (std::size_t j = i; j < 3; ++j) second[k++] += offset[i] * offset[j];
+    voxel.first[i] += sign * offset[i];
+    voxel.normal[i] += sign * normal[i];
+    for (std::size_t j = i; j < 3; ++j) voxel.second[k++] += sign * offset[i] * offset[j];
   }
   if (rgb == nullptr) return;
-  ++colored;
-  for (std::size_t c = 0; c < 3; ++c) color[c] += rgb[c];
+  voxel.colored += static_cast<std::uint32_t>(sign);
+  for (std::size_t c = 0; c < 3; ++c) voxel.color[c] += static_cast<std::uint32_t>(sign * rgb[c]);
 }
 
-void MapVoxel::subtract(const std::array<std::int64_t, 3>& offset, const std::uint8_t* rgb) {
-  --count;
-  for (std::size_t i = 0, k = 0; i < 3; ++i) {
-    first[i] -= offset[i];
-    for (std::size_t j = i; j < 3; ++j) second[k++] -= offset[i] * offset[j];
-  }
-  if (rgb == nullptr) return;
-  --colored;
-  for (std::size_t c = 0; c < 3; ++c) color[c] -= rgb[c];
-}
+template void VoxelReading::apply<1>(MapVoxel&) const;
+template void VoxelReading::apply<-1>(MapVoxel&) const;
 
 const MapVoxel* MapBlock::find(int number) const {
   const std::uint16_t slot = slot_[static_cast<std::size_t>(number)];

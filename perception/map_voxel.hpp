@@ -20,10 +20,20 @@ struct MapVoxel {
   std::array<std::uint32_t, 3> color{};  // Σ red, green, blue; good for 16 million points
   std::array<std::int64_t, 3> first{};   // Σ offset
   std::array<std::int64_t, 6> second{};  // Σ offset offsetᵀ: xx xy xz yy yz zz
+  std::array<std::int32_t, 3> normal{};  // Σ of kNormalUnit · normal; good for 2 million points
 
-  /// @param rgb three bytes, or nullptr where the colour is unknown.
-  void add(const std::array<std::int64_t, 3>& offset, const std::uint8_t* rgb);
-  void subtract(const std::array<std::int64_t, 3>& offset, const std::uint8_t* rgb);
+  static constexpr double kNormalUnit = 1024.0;
+};
+
+/// @brief What one reading adds to its voxel.
+struct VoxelReading {
+  std::array<std::int64_t, 3> offset{};  // from the voxel's centre, fine
+  const std::uint8_t* rgb = nullptr;     // three bytes; null where the colour is unknown
+  std::array<std::int32_t, 3> normal{};  // kNormalUnit · normal, 0 where there is none
+
+  /// @param sign 1 to add to the voxel, -1 to take away again.
+  template <int sign>
+  void apply(MapVoxel& voxel) const;
 };
 
 /// @brief Position of a block in the grid of blocks; x varies slowest in the order.

@@ -26,22 +26,35 @@ std::vector<std::string> PointMapConfig::validate() const {
 PointMap::PointMap(const PointMapConfig& config)
     : config_(validated(config)), voxels_(config.voxels) {}
 
-void PointMap::insert(std::int64_t keyframe, const geometry::RgbdFrame& frame,
+// As many pixels are kept of a frame without colour, which registration must not depend on.
+FrameView PointMap::view(const geometry::RgbdFrame& frame) const {
+  const auto max_bytes = static_cast<std::size_t>(config_.max_keyframe_bytes);
+  const bool colored =
+      frame.color.width == frame.depth.width && frame.color.height == frame.depth.height;
+  return view_of_thin(thin_frame(frame, colored ? max_bytes : max_bytes * 2 / 5));
+}
+
+FrameView PointMap::view_of_thin(const geometry::RgbdFrame& thin) const {
+  geometry::RgbdFrame better = corrected(thin, correction_);
+  SurfaceImage surfaces(better, config_.voxels.min_depth, config_.voxels.max_depth);
+  return {thin, std::move(better), std::move(surfaces)};
+}
+
+void PointMap::insert(std::int64_t keyframe, FrameView view,
                       const Eigen::Isometry3d& T_world_camera) {
   if (kept_.contains(keyframe)) {
     throw std::invalid_argument("point map: key frame " + std::to_string(keyframe) +
                                 " is in the map already");
   }
-  const auto max_bytes = static_cast<std::size_t>(config_.max_keyframe_bytes);
-  Kept kept{thin_frame(frame, max_bytes), T_world_camera};
-  voxels_.insert(kept.frame, T_world_camera);
-  kept_.emplace(keyframe, std::move(kept));
+  voxels_.insert(view.corrected, T_world_camera, &view.surfaces);
+  kept_.emplace(keyframe, Kept{std::move(view.thin), T_world_camera});
 }
 
 bool PointMap::remove(std::int64_t keyframe) {
   const auto found = kept_.find(keyframe);
   if (found == kept_.end()) return false;
-  voxels_.remove(found->second.frame, found->second.T_world_camera);
+  const FrameView view = view_of_thin(found->second.frame);
+  voxels_.remove(view.corrected, found->second.T_world_camera, &view.surfaces);
   kept_.erase(found);
   return true;
 }
@@ -50,10 +63,33 @@ bool PointMap::move(std::int64_t keyframe, const Eigen::Isometry3d& T_world_came
   const auto found = kept_.find(keyframe);
   if (found == kept_.end()) return false;
   Kept& kept = found->second;
-  voxels_.insert(kept.frame, T_world_camera);  // first: it is this that may throw
-  voxels_.remove(kept.frame, kept.T_world_camera);
+  const FrameView view = view_of_thin(kept.frame);
+  voxels_.insert(view.corrected, T_world_camera,
+                 &view.surfaces);  // first: it is this that may throw
+  voxels_.remove(view.corrected, kept.T_world_camera, &view.surfaces);
   kept.T_world_camera = T_world_camera;
   return true;
+}
+
+void PointMap::set_depth_correction(const DepthCorrection& correction) {
+  correction_ = correction;
+  voxels_.clear();
+  for (const auto& [keyframe, kept] : kept_) {
+    const FrameView view = view_of_thin(kept.frame);
+    voxels_.insert(view.corrected, kept.T_world_camera, &view.surfaces);
+  }
+}
+
+std::optional<FrameView> PointMap::view_of(std::int64_t keyframe) const {
+  const auto found = kept_.find(keyframe);
+  if (found == kept_.end()) return std::nullopt;
+  return view_of_thin(found->second.frame);
+}
+
+std::optional<Eigen::Isometry3d> PointMap::pose_of(std::int64_t keyframe) const {
+  const auto found = kept_.find(keyframe);
+  if (found == kept_.end()) return std::nullopt;
+  return found->second.T_world_camera;
 }
 
 void PointMap::clear() {

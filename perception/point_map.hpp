@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "geometry/rgbd_frame.hpp"
+#include "perception/depth_correction.hpp"
+#include "perception/surface_image.hpp"
 #include "perception/voxel_map.hpp"
 
 namespace geomap::perception {
@@ -26,6 +28,14 @@ struct PointMapConfig {
   }
 };
 
+/// @brief A frame as the point map and the registration take it: thinned, depth corrected, surfaces
+/// found.
+struct FrameView {
+  geometry::RgbdFrame thin;  // depth as it was read
+  geometry::RgbdFrame corrected;
+  SurfaceImage surfaces;  // of the corrected frame
+};
+
 /// @brief What the robot has seen: a fold over key frames. Of each one a thin frame is kept, and
 /// the voxels hold exactly the readings of the thin frames at their poses. So a key frame can be
 /// dropped or moved at any time, at the cost of that key frame alone, and the map is the same to
@@ -35,11 +45,18 @@ class PointMap {
   /// @throws std::invalid_argument when the configuration is not valid.
   explicit PointMap(const PointMapConfig& config = {});
 
-  /// @brief Thins the frame and adds it. @param keyframe its id, the frame's utime [us].
+  /// @brief The frame as it would enter the map now.
+  /// @throws std::invalid_argument when sizes of images and cameras disagree.
+  FrameView view(const geometry::RgbdFrame& frame) const;
+
+  /// @brief Adds a view of now. @param keyframe its id, the frame's utime [us].
   /// @throws std::invalid_argument for an id that is in the map, and as VoxelMap::insert(); the map
   /// is then as before.
+  void insert(std::int64_t keyframe, FrameView view, const Eigen::Isometry3d& T_world_camera);
   void insert(std::int64_t keyframe, const geometry::RgbdFrame& frame,
-              const Eigen::Isometry3d& T_world_camera);
+              const Eigen::Isometry3d& T_world_camera) {
+    insert(keyframe, view(frame), T_world_camera);
+  }
 
   /// @return false when there is no such key frame.
   bool remove(std::int64_t keyframe);
@@ -48,7 +65,15 @@ class PointMap {
   /// @throws std::invalid_argument for a pose that is not rigid or out of range; nothing is moved.
   bool move(std::int64_t keyframe, const Eigen::Isometry3d& T_world_camera);
 
-  void clear();
+  /// @brief Another correction of depth from here on: the map is built anew from all key frames.
+  void set_depth_correction(const DepthCorrection& correction);
+  const DepthCorrection& depth_correction() const { return correction_; }
+
+  void clear();  // key frames; the correction stays, it is the camera's
+
+  /// @brief A key frame as it is in the map, and its pose; nothing when there is no such key frame.
+  std::optional<FrameView> view_of(std::int64_t keyframe) const;
+  std::optional<Eigen::Isometry3d> pose_of(std::int64_t keyframe) const;
 
   const VoxelMap& voxels() const { return voxels_; }
   std::vector<MapPoint> points() const { return voxels_.points(); }
@@ -62,7 +87,10 @@ class PointMap {
     Eigen::Isometry3d T_world_camera;
   };
 
+  FrameView view_of_thin(const geometry::RgbdFrame& thin) const;
+
   PointMapConfig config_;
+  DepthCorrection correction_;
   VoxelMap voxels_;
   std::map<std::int64_t, Kept> kept_;  // by id
 };

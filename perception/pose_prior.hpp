@@ -93,6 +93,9 @@ class PosePrior {
   /// of a log.
   Prior prior_at(std::int64_t frame_utime) const;
 
+  /// @brief T_body_camera by CAMERA_TO_BODY or the configuration.
+  Eigen::Isometry3d T_body_camera_at(std::int64_t utime) const;
+
   /// @brief The correction of the odometry's drift, identity at first. No effect on localisation.
   /// @throws std::invalid_argument unless it is rigid.
   void set_T_world_odom(const Eigen::Isometry3d& T_world_odom);
@@ -103,7 +106,6 @@ class PosePrior {
 
  private:
   void advance_clock(std::int64_t utime, bool restarted);
-  Eigen::Isometry3d T_body_camera_at(std::int64_t utime) const;
 
   PriorConfig config_;
   Eigen::Isometry3d T_body_camera_fixed_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/trust_prior.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "perception/rigid_transform.hpp"
@@ -18,18 +17,19 @@ TrustPrior::TrustPrior(const TrustPriorConfig& config) : config_(config) {
   if (!errors.empty()) throw std::invalid_argument("trust_prior: " + errors.front());
 }
 
-RegistrationResult TrustPrior::align(const geometry::RgbdFrame& frame,
-                                     const Eigen::Isometry3d& T_world_camera_prior) {
-  const auto& depth = frame.depth.millimetres;
+RegistrationResult TrustPrior::align(const FrameView& view, const VoxelMap&,
+                                     const Eigen::Isometry3d& T_world_camera_prior,
+                                     PriorSource source) const {
   RegistrationResult result;
   result.T_world_camera_prior = T_world_camera_prior;
   result.T_world_camera = T_world_camera_prior;
-  result.readings =
-      static_cast<int>(std::count_if(depth.begin(), depth.end(), geometry::DepthImage::is_reading));
+  result.readings = count_readings(view.thin.depth);
   if (!is_rigid(T_world_camera_prior)) {
     result.reason = RegistrationReason::kInvalidPrior;
   } else if (result.readings < config_.min_readings) {
     result.reason = RegistrationReason::kTooFewReadings;
+  } else if (source == PriorSource::kGuessed) {
+    result.reason = RegistrationReason::kUnderconstrained;
   } else {
     result.reason = RegistrationReason::kPriorTrusted;
     result.accepted = true;

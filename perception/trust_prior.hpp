@@ -9,7 +9,7 @@
 namespace geomap::perception {
 
 struct TrustPriorConfig {
-  int min_readings = 300;  // pixels with depth, below which a frame is taken for blind
+  int min_readings = 20;  // pixels of a thin frame with depth; fewer: the frame is blind
 
   std::vector<std::string> validate() const;
 
@@ -20,14 +20,15 @@ struct TrustPriorConfig {
 };
 
 /// @brief Registration for robots and data sets whose poses are good already: takes every finite
-/// rigid prior as the pose, and measures neither rms nor overlap.
+/// rigid measured prior as the pose, and measures neither rms nor overlap.
 class TrustPrior : public Registration {
  public:
   /// @throws std::invalid_argument when the configuration is not valid.
   explicit TrustPrior(const TrustPriorConfig& config = {});
 
-  RegistrationResult align(const geometry::RgbdFrame& frame,
-                           const Eigen::Isometry3d& T_world_camera_prior) override;
+  RegistrationResult align(const FrameView& view, const VoxelMap& map,
+                           const Eigen::Isometry3d& T_world_camera_prior,
+                           PriorSource source) const override;
 
  private:
   TrustPriorConfig config_;

@@ -15,12 +15,15 @@ using geometry::RgbdFrame;
 using Fine = std::array<std::int64_t, 3>;  // a point in 1/4096 voxel
 
 constexpr double kFarthest = 1e6;  // [m]
+// Mean of a voxel's normals, readings without one counted as 0: shorter than this is an edge.
+constexpr double kLeastAgreement = 0.8;
 
 std::size_t pixels_of(int width, int height) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-void check(const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera) {
+void check(const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera,
+           const SurfaceImage* surfaces) {
   const DepthImage& depth = frame.depth;
   if (!frame.depth_camera.valid() || depth.width != frame.depth_camera.width ||
       depth.height != frame.depth_camera.height ||
@@ -30,6 +33,9 @@ void check(const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera) {
   if (!frame.color.empty() &&
       frame.color.rgb.size() != 3 * pixels_of(frame.color.width, frame.color.height)) {
     throw std::invalid_argument("voxel map: colour image has the wrong number of bytes");
+  }
+  if (surfaces != nullptr && !(surfaces->camera() == frame.depth_camera)) {
+    throw std::invalid_argument("voxel map: the surfaces are those of another camera");
   }
   if (!is_rigid(T_world_camera) || T_world_camera.translation().cwiseAbs().maxCoeff() > kFarthest) {
     throw std::invalid_argument("voxel map: T_world_camera is not rigid or out of range");
@@ -42,12 +48,24 @@ Fine to_fine(const Eigen::Vector3d& p) {
           static_cast<std::int64_t>(std::floor(p.z()))};
 }
 
+std::array<std::int32_t, 3> to_fixed(const Eigen::Vector3d& normal) {
+  std::array<std::int32_t, 3> fixed;
+  for (int i = 0; i < 3; ++i) {
+    fixed[static_cast<std::size_t>(i)] =
+        static_cast<std::int32_t>(std::lround(MapVoxel::kNormalUnit * normal(i)));
+  }
+  return fixed;
+}
+
+Eigen::Vector3d first_moment(const MapVoxel& voxel) {
+  return {static_cast<double>(voxel.first[0]), static_cast<double>(voxel.first[1]),
+          static_cast<double>(voxel.first[2])};
+}
+
 MapPoint to_point(const MapVoxel& voxel, const Eigen::Vector3d& center, double metres_per_fine) {
   const double n = voxel.count;
   // A fine coordinate is rounded down: what was measured lies half a step higher on average.
-  const Eigen::Vector3d mean(static_cast<double>(voxel.first[0]) / n,
-                             static_cast<double>(voxel.first[1]) / n,
-                             static_cast<double>(voxel.first[2]) / n);
+  const Eigen::Vector3d mean = first_moment(voxel) / n;
   MapPoint point;
   point.position = center + metres_per_fine * (mean.array() + 0.5).matrix();
   for (int i = 0, k = 0; i < 3; ++i) {
@@ -69,8 +87,8 @@ MapPoint to_point(const MapVoxel& voxel, const Eigen::Vector3d& center, double m
 
 std::vector<std::string> VoxelMapConfig::validate() const {
   std::vector<std::string> errors;
-  if (!(voxel_size >= 0.005) || !(voxel_size <= 1.0)) {
-    errors.push_back("voxel_size must lie between 0.005 and 1 m");
+  if (!(voxel_size >= 0.01) || !(voxel_size <= 1.0)) {
+    errors.push_back("voxel_size must lie between 0.01 and 1 m");
   }
   if (!(min_depth >= 0.0) || !(max_depth > min_depth) || !(max_depth <= 65.0)) {
     errors.push_back("depths must obey 0 <= min_depth < max_depth <= 65 m");
@@ -87,8 +105,8 @@ VoxelMap::VoxelMap(const VoxelMapConfig& config)
 template <typename Action>
 std::size_t VoxelMap::for_each_reading(const RgbdFrame& frame,
                                        const Eigen::Isometry3d& T_world_camera,
-                                       Action action) const {
-  check(frame, T_world_camera);
+                                       const SurfaceImage* surfaces, Action action) const {
+  check(frame, T_world_camera, surfaces);
   const auto& camera = frame.depth_camera;
   const bool colored =
       frame.color.width == frame.depth.width && frame.color.height == frame.depth.height;
@@ -107,42 +125,51 @@ std::size_t VoxelMap::for_each_reading(const RgbdFrame& frame,
       if (!DepthImage::is_reading(reading) || reading < nearest || reading > farthest) continue;
       const Eigen::Vector3d p = origin + static_cast<double>(reading) * (row + u * step);
       const std::size_t pixel = row_start + static_cast<std::size_t>(u);
-      action(to_fine(p), colored ? &frame.color.rgb[3 * pixel] : nullptr);
+      VoxelReading contribution;
+      if (colored) contribution.rgb = &frame.color.rgb[3 * pixel];
+      if (surfaces != nullptr && surfaces->at(u, v).valid()) {
+        contribution.normal = to_fixed(T_world_camera.linear() * surfaces->at(u, v).normal);
+      }
+      const VoxelAddress address = VoxelAddress::of(to_fine(p));
+      contribution.offset = address.offset;
+      action(address, contribution);
       ++readings;
     }
   }
   return readings;
 }
 
-std::size_t VoxelMap::insert(const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera) {
+std::size_t VoxelMap::insert(const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera,
+                             const SurfaceImage* surfaces) {
   MapBlock* block = nullptr;  // of the last reading: the next one is mostly in the same
   BlockIndex index;
-  return for_each_reading(frame, T_world_camera, [&](const Fine& fine, const std::uint8_t* rgb) {
-    const VoxelAddress address = VoxelAddress::of(fine);
+  const auto add = [&](const VoxelAddress& address, const VoxelReading& reading) {
     if (block == nullptr || address.block != index) {
       index = address.block;
       block = &blocks_[index];  // stays where it is when the table grows
     }
     MapVoxel& voxel = block->find_or_add(address.number);
     if (voxel.count == 0) ++voxels_;
-    voxel.add(address.offset, rgb);
-  });
+    reading.apply<1>(voxel);
+  };
+  return for_each_reading(frame, T_world_camera, surfaces, add);
 }
 
-std::size_t VoxelMap::remove(const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera) {
-  return for_each_reading(frame, T_world_camera, [&](const Fine& fine, const std::uint8_t* rgb) {
-    const VoxelAddress address = VoxelAddress::of(fine);
+std::size_t VoxelMap::remove(const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera,
+                             const SurfaceImage* surfaces) {
+  const auto take_away = [&](const VoxelAddress& address, const VoxelReading& reading) {
     const auto found = blocks_.find(address.block);
     MapVoxel* voxel = found == blocks_.end() ? nullptr : found->second.find(address.number);
-    if (voxel == nullptr || (rgb != nullptr && voxel->colored == 0)) {
+    if (voxel == nullptr || (reading.rgb != nullptr && voxel->colored == 0)) {
       throw std::invalid_argument("voxel map: the frame to remove was not inserted");
     }
-    voxel->subtract(address.offset, rgb);
+    reading.apply<-1>(*voxel);
     if (voxel->count > 0) return;
     found->second.erase(address.number);
     --voxels_;
     if (found->second.size() == 0) blocks_.erase(found);
-  });
+  };
+  return for_each_reading(frame, T_world_camera, surfaces, take_away);
 }
 
 std::vector<BlockIndex> VoxelMap::blocks() const {
@@ -159,13 +186,55 @@ Eigen::AlignedBox3d VoxelMap::block_box(const BlockIndex& index) const {
   return {corner, corner + Eigen::Vector3d::Constant(side)};
 }
 
-MapPoint VoxelMap::point_of(const BlockIndex& index, int number, const MapVoxel& voxel) const {
+SurfelSelection VoxelMap::surfels_in(const geometry::Frustum& frustum) const {
+  SurfelSelection selection;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& corner : frustum.corners()) box.extend(corner);
+  const double side = config_.voxel_size * MapBlock::kSide;
+  if (box.min().cwiseAbs().maxCoeff() > 2.0 * kFarthest ||
+      box.max().cwiseAbs().maxCoeff() > 2.0 * kFarthest) {
+    return selection;
+  }
+  const Eigen::Vector3i first = (box.min() / side).array().floor().cast<int>();
+  const Eigen::Vector3i last = (box.max() / side).array().floor().cast<int>();
+  BlockIndex index;
+  for (index.x = first.x(); index.x <= last.x(); ++index.x) {
+    for (index.y = first.y(); index.y <= last.y(); ++index.y) {
+      for (index.z = first.z(); index.z <= last.z(); ++index.z) {
+        ++selection.blocks_visited;
+        const auto found = blocks_.find(index);
+        if (found == blocks_.end() || !frustum.may_intersect(block_box(index))) continue;
+        ++selection.blocks_used;
+        append_surfels(index, found->second, selection.surfels);
+      }
+    }
+  }
+  return selection;
+}
+
+void VoxelMap::append_surfels(const BlockIndex& index, const MapBlock& block,
+                              std::vector<Surfel>& surfels) const {
+  for (int number = 0; number < MapBlock::kVoxels; ++number) {
+    const MapVoxel* voxel = block.find(number);
+    if (voxel == nullptr) continue;
+    const Eigen::Vector3d normal(voxel->normal[0], voxel->normal[1], voxel->normal[2]);
+    const double length = normal.norm();
+    if (length < kLeastAgreement * MapVoxel::kNormalUnit * voxel->count) continue;
+    const Eigen::Vector3d mean =
+        first_moment(*voxel).array() / voxel->count + 0.5;  // as to_point()
+    surfels.push_back({voxel_center(index, number) + mean / fine_per_metre_, normal / length});
+  }
+}
+
+Eigen::Vector3d VoxelMap::voxel_center(const BlockIndex& index, int number) const {
   constexpr int kMask = MapBlock::kSide - 1;
   const Eigen::Vector3d cell(number >> (2 * MapBlock::kSideBits),
                              (number >> MapBlock::kSideBits) & kMask, number & kMask);
-  const Eigen::Vector3d center =
-      block_box(index).min() + config_.voxel_size * (cell.array() + 0.5).matrix();
-  return to_point(voxel, center, 1.0 / fine_per_metre_);
+  return block_box(index).min() + config_.voxel_size * (cell.array() + 0.5).matrix();
+}
+
+MapPoint VoxelMap::point_of(const BlockIndex& index, int number, const MapVoxel& voxel) const {
+  return to_point(voxel, voxel_center(index, number), 1.0 / fine_per_metre_);
 }
 
 void VoxelMap::append_points(const BlockIndex& index, const MapBlock& block,

@@ -10,13 +10,16 @@
 #include <unordered_map>
 #include <vector>
 
+#include "geometry/frustum.hpp"
 #include "geometry/rgbd_frame.hpp"
+#include "perception/frustum_icp.hpp"
 #include "perception/map_voxel.hpp"
+#include "perception/surface_image.hpp"
 
 namespace geomap::perception {
 
 struct VoxelMapConfig {
-  double voxel_size = 0.03;  // [m]
+  double voxel_size = 0.04;  // [m]
   double min_depth = 0.4;    // readings nearer than this are left out [m]
   double max_depth = 5.0;    // readings farther than this are left out [m]
 
@@ -38,6 +41,13 @@ struct MapPoint {
   std::array<std::uint8_t, 3> color = {128, 128, 128};  // red, green, blue; grey where none seen
 };
 
+/// @brief The map's surface inside a frustum, and what finding it took.
+struct SurfelSelection {
+  std::vector<Surfel> surfels;  // ordered by block and voxel
+  int blocks_visited = 0;       // looked up: those of the frustum's bounding box
+  int blocks_used = 0;          // that hold points and may lie inside the frustum
+};
+
 /// @brief What the robot has seen, as moments of points in voxels, in blocks of 8 x 8 x 8 voxels
 /// found through a hash table.
 ///
@@ -45,7 +55,7 @@ struct MapPoint {
 /// adding is exact: the order of frames does not matter, and remove() is the exact inverse of
 /// insert().
 ///
-/// Memory: 96 bytes for a voxel that holds points, and 1 kB for each block, in all about 117 bytes
+/// Memory: 112 bytes for a voxel that holds points, and 1 kB for each block, in all about 133 bytes
 /// a voxel (recorded kitchen, voxels of 2 to 4 cm). Precision is the same at any distance from the
 /// origin up to 1000 km.
 class VoxelMap {
@@ -54,16 +64,18 @@ class VoxelMap {
   explicit VoxelMap(const VoxelMapConfig& config = {});
 
   /// @brief Adds every reading of the frame between min_depth and max_depth, usually of a
-  /// thin_frame().
+  /// thin_frame(). @param surfaces of the frame, whose normals are added too; may be null.
   /// @return the number of readings added.
   /// @throws std::invalid_argument for an invalid camera, image sizes that disagree, or a pose that
   /// is not rigid or farther than 1000 km from the origin.
-  std::size_t insert(const geometry::RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera);
+  std::size_t insert(const geometry::RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera,
+                     const SurfaceImage* surfaces = nullptr);
 
-  /// @brief Takes away what insert() added for the same frame and pose.
+  /// @brief Takes away what insert() added for the same frame, pose and surfaces.
   /// @throws std::invalid_argument as above, and when a reading was not in the map (which is then
   /// without the readings before it).
-  std::size_t remove(const geometry::RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera);
+  std::size_t remove(const geometry::RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera,
+                     const SurfaceImage* surfaces = nullptr);
 
   /// @brief All points, ordered by block and voxel: the same for the same content of the map.
   std::vector<MapPoint> points() const;
@@ -71,7 +83,12 @@ class VoxelMap {
   /// @brief The voxel that contains a point of the world, where it holds anything.
   std::optional<MapPoint> at(const Eigen::Vector3d& p_world) const;
 
-  /// @brief Blocks that hold anything, ascending: what a choice by frustum starts from.
+  /// @brief Surfels of the voxels in blocks that may lie inside the frustum. Its cost is that of
+  /// the frustum's size and content, whatever else the map holds. Voxels whose readings have no
+  /// common normal (edges, clutter) are left out.
+  SurfelSelection surfels_in(const geometry::Frustum& frustum) const;
+
+  /// @brief Blocks that hold anything, ascending.
   std::vector<BlockIndex> blocks() const;
   Eigen::AlignedBox3d block_box(const BlockIndex& index) const;  // world frame [m]
   std::vector<MapPoint> block_points(const BlockIndex& index) const;
@@ -83,7 +100,11 @@ class VoxelMap {
  private:
   template <typename Action>
   std::size_t for_each_reading(const geometry::RgbdFrame& frame,
-                               const Eigen::Isometry3d& T_world_camera, Action action) const;
+                               const Eigen::Isometry3d& T_world_camera,
+                               const SurfaceImage* surfaces, Action action) const;
+  void append_surfels(const BlockIndex& index, const MapBlock& block,
+                      std::vector<Surfel>& surfels) const;
+  Eigen::Vector3d voxel_center(const BlockIndex& index, int number) const;
   MapPoint point_of(const BlockIndex& index, int number, const MapVoxel& voxel) const;
   void append_points(const BlockIndex& index, const MapBlock& block,
                      std::vector<MapPoint>& points) const;

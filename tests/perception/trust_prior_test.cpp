@@ -11,7 +11,7 @@
 namespace geomap::perception {
 namespace {
 
-geometry::RgbdFrame frame_with_readings(int readings) {
+FrameView view_with_readings(int readings) {
   geometry::RgbdFrame frame;
   frame.depth_camera = testing::kinect_camera(8);
   frame.depth.width = frame.depth_camera.width;
@@ -19,13 +19,19 @@ geometry::RgbdFrame frame_with_readings(int readings) {
   frame.depth.millimetres.assign(static_cast<std::size_t>(frame.depth.width * frame.depth.height),
                                  geometry::DepthImage::kInvalid);
   std::fill_n(frame.depth.millimetres.begin(), readings, std::uint16_t{1500});
-  return frame;
+  return {frame, frame, SurfaceImage(frame, 0.4, 5.0)};
+}
+
+RegistrationResult align(const TrustPrior& registration, int readings,
+                         const Eigen::Isometry3d& prior = Eigen::Isometry3d::Identity(),
+                         PriorSource source = PriorSource::kMeasured) {
+  return registration.align(view_with_readings(readings), VoxelMap(), prior, source);
 }
 
 TEST(TrustPrior, TakesARigidPriorAsThePose) {
   const Eigen::Isometry3d prior = testing::look_at({900.0, -20.0, 1.5}, {903.0, -19.0, 1.0});
   TrustPrior registration;
-  const RegistrationResult result = registration.align(frame_with_readings(400), prior);
+  const RegistrationResult result = align(registration, 400, prior);
   EXPECT_TRUE(result.accepted);
   EXPECT_EQ(result.reason, RegistrationReason::kPriorTrusted);
   EXPECT_EQ(result.T_world_camera.matrix(), prior.matrix());
@@ -35,20 +41,25 @@ TEST(TrustPrior, TakesARigidPriorAsThePose) {
 
 TEST(TrustPrior, ClaimsNoMeasurementThatItHasNotMade) {
   TrustPrior registration;
-  const auto result = registration.align(frame_with_readings(400), Eigen::Isometry3d::Identity());
-  EXPECT_FALSE(result.rms.has_value());
-  EXPECT_FALSE(result.overlap.has_value());
+  EXPECT_FALSE(align(registration, 400).alignment.has_value());
 }
 
 TEST(TrustPrior, RejectsAFrameWithTooFewReadings) {
   TrustPrior registration(TrustPriorConfig{100});
-  const Eigen::Isometry3d prior = Eigen::Isometry3d::Identity();
-  EXPECT_TRUE(registration.align(frame_with_readings(100), prior).accepted);
-  for (const auto& frame : {frame_with_readings(99), geometry::RgbdFrame{}}) {
-    const auto result = registration.align(frame, prior);
+  EXPECT_TRUE(align(registration, 100).accepted);
+  for (const int readings : {99, 0}) {
+    const auto result = align(registration, readings);
     EXPECT_FALSE(result.accepted);
     EXPECT_EQ(to_string(result.reason), "too_few_readings");
   }
+}
+
+TEST(TrustPrior, DoesNotTrustAGuess) {
+  TrustPrior registration;
+  const auto result =
+      align(registration, 400, Eigen::Isometry3d::Identity(), PriorSource::kGuessed);
+  EXPECT_FALSE(result.accepted);
+  EXPECT_EQ(to_string(result.reason), "underconstrained");
 }
 
 TEST(TrustPrior, RejectsAPriorThatIsNoRigidMotion) {
@@ -60,7 +71,7 @@ TEST(TrustPrior, RejectsAPriorThatIsNoRigidMotion) {
   mirrored.linear()(2, 2) = -1.0;
   TrustPrior registration;
   for (const auto& prior : {not_finite, scaled, mirrored}) {
-    const auto result = registration.align(frame_with_readings(400), prior);
+    const auto result = align(registration, 400, prior);
     EXPECT_FALSE(result.accepted);
     EXPECT_EQ(to_string(result.reason), "invalid_prior");
   }

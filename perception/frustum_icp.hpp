@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "perception/surface_image.hpp"
+
+namespace geomap::perception {
+
+/// @brief One piece of the map's surface: mean of a voxel's points and their mean normal, world.
+struct Surfel {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    // unit, to the side it was seen from
+};
+
+struct FrustumIcpConfig {
+  int max_iterations = 12;
+  int coarse_iterations = 3;           // with every fourth surfel and a wide gate
+  double coarse_gate = 0.15;           // distance up to which partners are believed at first [m]
+  double gate = 0.03;                  // and in the end [m]; halves from step to step in between
+  double max_normal_angle_deg = 40.0;  // between the normals of partners
+  double prior_sigma = 0.05;           // what is known of the pose beforehand [m], see align()
+  double least_information = 0.002;    // of a direction, against one that every surfel fixes
+
+  std::vector<std::string> validate() const;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& visitor) {
+    visitor("max_iterations", self.max_iterations);
+    visitor("coarse_iterations", self.coarse_iterations);
+    visitor("coarse_gate", self.coarse_gate);
+    visitor("gate", self.gate);
+    visitor("max_normal_angle_deg", self.max_normal_angle_deg);
+    visitor("prior_sigma", self.prior_sigma);
+    visitor("least_information", self.least_information);
+  }
+};
+
+/// @brief What an alignment found, and how far it can be believed.
+struct Alignment {
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  bool converged = false;  // the last step was below 1 mm and 0.06 degrees
+  int partners = 0;        // surfels that took part in the last step
+  int iterations = 0;
+  double rms = 0.0;             // weighted, of the partners' distances along the normals [m]
+  double overlap = 0.0;         // share of the view's area that lies on known surface, 0..1
+  double agreement = 0.0;       // partners against partners and surfels seen through, 0..1
+  int observed_directions = 0;  // of the six of a motion
+  double conditioning = 0.0;    // smallest information of a direction over the largest, 0..1
+};
+
+/// @brief Frustum ICP (paper, section on registration): aligns a view to the surfels inside the
+/// camera's frustum, point to plane.
+///
+/// Each surfel is moved into the camera and falls onto a pixel of the view, whose surface is its
+/// partner; the residual lies along the surfel's normal, between the surfel and where its viewing
+/// ray meets the partner's plane. Corrections compose on the left and are linearised about the
+/// camera's centre: T_world_camera = dT_world · T_world_camera.
+///
+/// Rotations are scaled by the partners' rms distance from the camera, so that all six directions
+/// are lengths. The eigenvectors of the information matrix whose information exceeds the prior's
+/// (1/prior_sigma²), least_information of the whole weight, and four times what the observed
+/// disagreement of normals alone would feign, count as observed. They are fixed at the first step,
+/// every step is projected onto them, and the rest of the pose stays the prior's: what a wall, a
+/// floor or a corridor does not tell is not made up.
+///
+/// @param surfels of the map, any order that depends on the map alone; those outside the view cost
+/// little and change nothing.
+/// @throws std::invalid_argument unless the prior is rigid.
+Alignment align(const std::vector<Surfel>& surfels, const SurfaceImage& view,
+                const Eigen::Isometry3d& T_world_camera_prior, const FrustumIcpConfig& config = {});
+
+}  // namespace geomap::perception
