@@ -7,7 +7,6 @@
 #include <tuple>
 
 #include "drivers/frame_source.hpp"
-#include "drivers/input_file.hpp"
 
 namespace geomap::drivers {
 namespace {
@@ -33,6 +32,12 @@ void order_by_time(std::vector<Stamped>& list) {
                    [](const Stamped& a, const Stamped& b) { return a.utime < b.utime; });
   const auto same = [](const Stamped& a, const Stamped& b) { return a.utime == b.utime; };
   list.erase(std::unique(list.begin(), list.end(), same), list.end());
+}
+
+std::vector<std::int64_t> utimes_of(const std::vector<StampedFile>& list) {
+  std::vector<std::int64_t> utimes;
+  for (const StampedFile& file : list) utimes.push_back(file.utime);
+  return utimes;
 }
 
 }  // namespace
@@ -66,38 +71,41 @@ std::vector<StampedFile> read_file_list(const path& file) {
   return list;
 }
 
+StampedPose to_pose(const TextRow& row, const path& file) {
+  if (row.words.size() != 8) {
+    throw SourceError(where(file, row) + std::to_string(row.words.size()) +
+                      " words where 8 are wanted: seconds tx ty tz qx qy qz qw");
+  }
+  double v[7];
+  for (std::size_t i = 0; i < 7; ++i) v[i] = to_number(row.words[i + 1], file, row.line);
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  // Trajectories are printed with 4 decimals: off by more it is something else than a quaternion.
+  if (!(std::abs(q.norm() - 1.0) <= 1e-3)) {
+    throw SourceError(where(file, row) +
+                      "the quaternion does not have length 1; its order is qx qy qz qw");
+  }
+  StampedPose pose{stamp_of(row, file), Eigen::Isometry3d::Identity()};
+  pose.T_world_camera.linear() = q.normalized().toRotationMatrix();
+  pose.T_world_camera.translation() = Eigen::Vector3d(v[0], v[1], v[2]);
+  return pose;
+}
+
 std::vector<StampedPose> read_trajectory(const path& file) {
   std::vector<StampedPose> trajectory;
-  for (const TextRow& row : read_rows(file)) {
-    if (row.words.size() != 8) {
-      throw SourceError(where(file, row) + std::to_string(row.words.size()) +
-                        " words where 8 are wanted: seconds tx ty tz qx qy qz qw");
-    }
-    double v[7];
-    for (std::size_t i = 0; i < 7; ++i) v[i] = to_number(row.words[i + 1], file, row.line);
-    const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
-    // Trajectories are printed with 4 decimals: far from 1 it is something else than a quaternion.
-    if (std::abs(q.norm() - 1.0) > 0.01) {
-      throw SourceError(where(file, row) + "the quaternion does not have length 1");
-    }
-    StampedPose pose{stamp_of(row, file), Eigen::Isometry3d::Identity()};
-    pose.T_world_camera.linear() = q.normalized().toRotationMatrix();
-    pose.T_world_camera.translation() = Eigen::Vector3d(v[0], v[1], v[2]);
-    trajectory.push_back(pose);
-  }
+  for (const TextRow& row : read_rows(file)) trajectory.push_back(to_pose(row, file));
   order_by_time(trajectory);
   return trajectory;
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> associate(const std::vector<StampedFile>& a,
-                                                           const std::vector<StampedFile>& b,
+std::vector<std::pair<std::size_t, std::size_t>> associate(std::span<const std::int64_t> a,
+                                                           std::span<const std::int64_t> b,
                                                            std::int64_t max_gap) {
   std::vector<std::tuple<std::int64_t, std::size_t, std::size_t>> candidates;  // gap, in a, in b
   std::size_t first = 0;  // of b within reach of a[i]; both lists are by time
   for (std::size_t i = 0; i < a.size(); ++i) {
-    while (first < b.size() && b[first].utime < a[i].utime - max_gap) ++first;
-    for (std::size_t k = first; k < b.size() && b[k].utime <= a[i].utime + max_gap; ++k) {
-      candidates.emplace_back(std::abs(a[i].utime - b[k].utime), i, k);
+    while (first < b.size() && b[first] < a[i] - max_gap) ++first;
+    for (std::size_t k = first; k < b.size() && b[k] <= a[i] + max_gap; ++k) {
+      candidates.emplace_back(std::abs(a[i] - b[k]), i, k);
     }
   }
   std::sort(candidates.begin(), candidates.end());
@@ -111,6 +119,12 @@ std::vector<std::pair<std::size_t, std::size_t>> associate(const std::vector<Sta
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> associate(const std::vector<StampedFile>& a,
+                                                           const std::vector<StampedFile>& b,
+                                                           std::int64_t max_gap) {
+  return associate(utimes_of(a), utimes_of(b), max_gap);
 }
 
 std::optional<Eigen::Isometry3d> pose_at(const std::vector<StampedPose>& trajectory,

@@ -5,10 +5,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "drivers/input_file.hpp"
 
 namespace geomap::drivers {
 
@@ -33,6 +36,10 @@ std::optional<std::int64_t> parse_seconds(std::string_view text);
 /// @throws SourceError naming file and line.
 std::vector<StampedFile> read_file_list(const std::filesystem::path& path);
 
+/// @brief One line `seconds tx ty tz qx qy qz qw` of a trajectory; the quaternion is normalised.
+/// @throws SourceError naming file and line.
+StampedPose to_pose(const TextRow& row, const std::filesystem::path& path);
+
 /// @brief A trajectory `seconds tx ty tz qx qy qz qw`, by time, quaternions normalised;
 /// of equal stamps the first stays.
 /// @throws SourceError naming file and line.
@@ -40,6 +47,10 @@ std::vector<StampedPose> read_trajectory(const std::filesystem::path& path);
 
 /// @brief Pairs (index in a, index in b) of nearest stamps, at most `max_gap` [us] apart, each used
 /// once: the closest pair first, as the data set's own associate.py does. By index in a.
+/// @param a, b ascending [us].
+std::vector<std::pair<std::size_t, std::size_t>> associate(std::span<const std::int64_t> a,
+                                                           std::span<const std::int64_t> b,
+                                                           std::int64_t max_gap);
 std::vector<std::pair<std::size_t, std::size_t>> associate(const std::vector<StampedFile>& a,
                                                            const std::vector<StampedFile>& b,
                                                            std::int64_t max_gap);
