@@ -92,6 +92,18 @@ void SvgCanvas::line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std
                  from.x(), from.y(), to.x(), to.y(), color, width);
 }
 
+void SvgCanvas::polyline(const std::vector<Eigen::Vector2d>& points, std::string_view color,
+                         double width) {
+  if (points.size() < 2) return;
+  auto out = std::back_inserter(body_);
+  body_ += "<polyline points=\"";
+  for (const Eigen::Vector2d& point : points) {
+    fmt::format_to(out, "{:.2f},{:.2f} ", point.x(), point.y());
+  }
+  body_.back() = '"';
+  fmt::format_to(out, " fill=\"none\" stroke=\"{}\" stroke-width=\"{:.1f}\"/>\n", color, width);
+}
+
 void SvgCanvas::circle(const Eigen::Vector2d& centre, double radius, const ShapeStyle& style) {
   fmt::format_to(std::back_inserter(body_),
                  "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.1f}\" {}/>\n", centre.x(), centre.y(),

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mapping/export_features.hpp"
 #include "mapping/export_svg_label.hpp"
@@ -42,6 +43,8 @@ class SvgCanvas {
   void text(const Eigen::Vector2d& at, std::string_view content, const TextStyle& style);
   void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::string_view color,
             double width);
+  /// An open line; nothing for fewer than two points.
+  void polyline(const std::vector<Eigen::Vector2d>& points, std::string_view color, double width);
   void circle(const Eigen::Vector2d& centre, double radius, const ShapeStyle& style);
   void rectangle(const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                  const ShapeStyle& style);
