@@ -21,6 +21,7 @@
 #include "messaging/log_writer.hpp"
 #include "messaging/program.hpp"
 #include "messaging/progress_bar.hpp"
+#include "perception/keyframe_messages.hpp"
 #include "perception/point_map_ply.hpp"
 
 namespace geomap::logs {
@@ -85,17 +86,31 @@ void run(Pass& pass, const std::string& log) {
   pass.seconds = stopwatch.seconds();
 }
 
-// Writes what extraction publishes, as a log that the separate mapper can be fed with.
+// Writes what registration and extraction publish, as a log that the separate mapper can be fed
+// with.
 class DerivedLog {
  public:
   explicit DerivedLog(const std::string& path) {
     if (!path.empty()) writer_.emplace(path);
   }
+  void write(const geomap::rgbd_frame_t& frame, const perception::Tracked& tracked,
+             const Eigen::Isometry3d& T_world_odom) {
+    if (!writer_) return;
+    if (!session_) session_ = frame.utime;
+    if (tracked.T_world_camera) {
+      writer_->write(channels::kCameraPose, frame.utime,
+                     messaging::to_rigid_transform(frame.utime, *tracked.T_world_camera));
+    }
+    // A frame that was only tracked is no key frame, and was not refused as one.
+    if (!tracked.registration || tracked.status == perception::TrackStatus::kTracked) return;
+    writer_->write(channels::kKeyframe, frame.utime,
+                   perception::to_message(*tracked.registration, frame, *session_, sequence_++));
+    if (tracked.status != perception::TrackStatus::kKeyframe) return;
+    writer_->write(channels::kOdomToWorld, frame.utime,
+                   messaging::to_rigid_transform(frame.utime, T_world_odom));
+  }
   void write(const KeyframeRecord& record, const mapping::Observation& observation) {
     if (!writer_) return;
-    if (!session_) session_ = record.id;
-    writer_->write(channels::kCameraPose, record.id,
-                   messaging::to_rigid_transform(record.id, record.T_world_camera));
     const messaging::PlaneSet planes{record.id, *session_, record.T_world_camera,
                                      record.noise_factor, observation.planes};
     writer_->write(channels::kPlanes, record.id, messaging::to_message(planes));
@@ -106,7 +121,8 @@ class DerivedLog {
 
  private:
   std::optional<messaging::LogWriter> writer_;
-  std::optional<std::int64_t> session_;
+  std::optional<std::int64_t> session_;  // utime of the first frame
+  std::int64_t sequence_ = 0;
 };
 
 DataReduction reduction_of(const Pipeline& pipeline, const std::filesystem::path& map_file) {
@@ -160,6 +176,9 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   Pass first(settings, options.threads);
   DerivedLog derived(options.log_out);
   GrowthPictures pictures(options.pictures_every);
+  first.pipeline.on_tracked(
+      [&](const geomap::rgbd_frame_t& frame, const perception::Tracked& tracked,
+          const Eigen::Isometry3d& T_world_odom) { derived.write(frame, tracked, T_world_odom); });
   first.pipeline.on_keyframe([&](const KeyframeRecord& record,
                                  const mapping::Observation& observation,
                                  const mapping::MapChange& change) {
@@ -202,6 +221,9 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   report.sequence_gaps = first.input.sequence_gaps();
   report.log_damaged = first.log_damaged;
   report.keyframes = pipeline.keyframes();
+  report.tracking = pipeline.tracker().counts();
+  report.lost_at_end = pipeline.tracker().is_lost();
+  report.poses = pipeline.tracker().prior().pose_counts();
   report.reduction = reduction_of(pipeline, options.output / "map.lcmlog");
   write_report(report, options.output);
   return result;

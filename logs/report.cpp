@@ -41,6 +41,55 @@ int planes_extracted(const Report& report) {
                          [](int sum, const KeyframeRecord& k) { return sum + k.planes; });
 }
 
+// Of the accepted key frames that were aligned: median of one of their figures.
+template <typename Figure>
+double median_of(const Report& report, const Figure& figure) {
+  std::vector<double> values;
+  for (const KeyframeRecord& keyframe : report.keyframes) {
+    const auto& alignment = keyframe.registration.alignment;
+    if (alignment) values.push_back(static_cast<double>(figure(*alignment)));
+  }
+  return summarize(std::move(values)).p50;
+}
+
+nlohmann::ordered_json registration_json(const Report& report) {
+  using perception::Alignment;
+  return {{"lost", report.tracking.lost},
+          {"relocalised", report.tracking.relocalised},
+          {"lost_at_end", report.lost_at_end},
+          {"odometry_relinked", report.tracking.relinked},
+          {"time_went_back", report.tracking.time_went_back},
+          {"depth_corrections", report.tracking.corrections},
+          {"pose_jumps", report.poses.jumps},
+          {"pose_restarts", report.poses.restarts},
+          {"pose_out_of_order", report.poses.out_of_order},
+          {"pose_invalid", report.poses.invalid},
+          {"rms", median_of(report, [](const Alignment& a) { return a.rms; })},
+          {"overlap", median_of(report, [](const Alignment& a) { return a.overlap; })},
+          {"conditioning", median_of(report, [](const Alignment& a) { return a.conditioning; })}};
+}
+
+// What the operator of a robot would want to know of the way.
+std::string tracking_rows(const Report& report) {
+  std::string text;
+  const auto row = [&](const char* what, std::int64_t count) {
+    if (count > 0) text += fmt::format("| {} | {} |\n", what, count);
+  };
+  row("times the camera was lost", report.tracking.lost);
+  row("times it was found again", report.tracking.relocalised);
+  if (report.lost_at_end) text += "| at the end | lost |\n";
+  row("odometry tied in anew after a break", report.tracking.relinked);
+  row("frames older than the one before", report.tracking.time_went_back);
+  row("jumps of POSE", report.poses.jumps);
+  row("restarts of POSE", report.poses.restarts);
+  row("POSE out of order, ignored", report.poses.out_of_order);
+  row("POSE not finite or not rigid, ignored", report.poses.invalid);
+  row("improvements of the depth correction", report.tracking.corrections);
+  const double rms = median_of(report, [](const perception::Alignment& a) { return a.rms; });
+  if (rms > 0.0) text += fmt::format("| median rms of an alignment | {:.1f} mm |\n", 1e3 * rms);
+  return text;
+}
+
 nlohmann::ordered_json to_json(const Report& report) {
   nlohmann::ordered_json json;
   const DataReduction& reduction = report.reduction;
@@ -50,6 +99,7 @@ nlohmann::ordered_json to_json(const Report& report) {
   json["frames"] = report.frames;
   json["keyframes"] = report.keyframes.size();
   json["keyframes_rejected"] = report.rejected;
+  json["registration"] = registration_json(report);
   json["messages_refused"] = report.refused;
   json["sequence_gaps"] = report.sequence_gaps;
   json["log_damaged"] = report.log_damaged;
@@ -96,6 +146,7 @@ std::string overview(const Report& report) {
   for (const auto& [reason, count] : report.rejected) {
     text += fmt::format("| frames rejected: {} | {} |\n", reason, count);
   }
+  text += tracking_rows(report);
   for (const auto& [channel, reasons] : report.refused) {
     for (const auto& [reason, count] : reasons) {
       text += fmt::format("| messages refused on {}: {} | {} |\n", channel, reason, count);

@@ -37,8 +37,11 @@ struct Report {
   std::int64_t sequence_gaps = 0;
   bool log_damaged = false;
   std::vector<KeyframeRecord> keyframes;
-  std::vector<StageTimes> times;  // of all key frames of all passes
-  double wall_seconds = 0.0;      // of one pass, reading included
+  perception::TrackerCounts tracking;
+  bool lost_at_end = false;
+  perception::PoseBufferCounts poses;  // of POSE
+  std::vector<StageTimes> times;       // of all key frames of all passes
+  double wall_seconds = 0.0;           // of one pass, reading included
   DataReduction reduction;
   mapping::MapSnapshot map;
 };

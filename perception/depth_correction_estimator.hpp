@@ -12,10 +12,10 @@ namespace geomap::perception {
 
 struct DepthCorrectionConfig {
   bool enabled = true;
-  double sigma = 0.004;  // expected size of the correction at the border, share of the depth
-  double linear_sigma = 0.0012;  // of its linear terms, which look almost like a turn of the camera
-  double least_change = 0.001;   // below this, a new estimate is not worth rebuilding the map
-  double correlation = 80.0;     // measurements that say no more than one: neighbours err alike
+  double sigma = 0.004;         // expected size of the correction at the border, share of the depth
+  double linear_sigma = 0.003;  // of its linear terms, which look almost like a turn of the camera
+  double least_change = 0.001;  // below this, a new estimate is not worth rebuilding the map
+  double correlation = 80.0;    // measurements that say no more than one: neighbours err alike
 
   std::vector<std::string> validate() const;
 

@@ -12,11 +12,6 @@ struct TrustPriorConfig {
   int min_readings = 20;  // pixels of a thin frame with depth; fewer: the frame is blind
 
   std::vector<std::string> validate() const;
-
-  template <typename Self, typename Visitor>
-  static void visit(Self& self, Visitor&& visitor) {
-    visitor("min_readings", self.min_readings);
-  }
 };
 
 /// @brief Registration for robots and data sets whose poses are good already: takes every finite

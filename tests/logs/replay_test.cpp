@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "geomap/keyframe_t.hpp"
 #include "logs/synthetic_log.hpp"
 #include "logs/trajectory_file.hpp"
 #include "mapping/map_hash.hpp"
@@ -26,11 +28,12 @@ namespace fs = std::filesystem;
 class Replay : public testing::TemporaryFolder {
  protected:
   ReplayResult replay_events(const std::vector<messaging::LogEvent>& events,
-                             ReplayOptions options = {}) {
+                             ReplayOptions options = {},
+                             const std::vector<std::string>& settings = {}) {
     options.log = path("in.lcmlog");
     options.output = path("out");
     testing::write_log(options.log, events);
-    return replay(options, messaging::Config::load());
+    return replay(options, messaging::Config::load(std::nullopt, settings));
   }
 };
 
@@ -113,12 +116,53 @@ TEST_F(Replay, ThreadsAndPassesDoNotChangeTheMap) {
   EXPECT_EQ(again.report.times.size(), 2 * again.report.keyframes.size());
 }
 
-TEST_F(Replay, WithoutPosesEveryFrameIsRejectedAndSaysWhy) {
+TEST_F(Replay, WithoutPosesAndAlignmentEveryFrameIsRejectedAndSaysWhy) {
   auto events = testing::synthetic_log(5);
   std::erase_if(events, [](const auto& event) { return event.channel == "POSE"; });
-  const ReplayResult result = replay_events(events);
+  const ReplayResult result = replay_events(events, {}, {"registration.method=prior"});
   EXPECT_EQ(result.report.rejected.at("no_pose"), 5);
   EXPECT_TRUE(result.report.map.features.empty());
+}
+
+TEST_F(Replay, WithoutPosesTheAlignmentFindsTheWay) {
+  auto events = testing::synthetic_log(20);
+  std::erase_if(events, [](const auto& event) { return event.channel == "POSE"; });
+  const ReplayResult result = replay_events(events);
+  const auto& keyframes = result.report.keyframes;
+  ASSERT_GE(keyframes.size(), 5u);
+  EXPECT_TRUE(result.report.rejected.empty());
+  // The camera moves along the world's x by 5 cm a frame. The map's frame is the first camera's.
+  const Eigen::Vector3d moved = keyframes.back().T_world_camera.translation() -
+                                keyframes.front().T_world_camera.translation();
+  const auto frames = static_cast<double>(keyframes.back().id - keyframes.front().id) / 33'333;
+  EXPECT_NEAR(moved.norm(), 0.05 * frames, 0.01);
+}
+
+TEST_F(Replay, TheDerivedLogHoldsEveryPoseAndEveryKeyframe) {
+  ReplayOptions options;
+  options.log_out = path("derived.lcmlog");
+  const ReplayResult result = replay_events(testing::synthetic_log(20, 0.005), options);
+  std::map<std::string, std::int64_t> count;
+  messaging::LogReader reader(options.log_out);
+  while (const auto event = reader.next()) {
+    ++count[event->channel];
+    if (event->channel != messaging::channels::kKeyframe) continue;
+    const auto keyframe =
+        messaging::safe_decode<geomap::keyframe_t>(event->data.data(), event->data.size());
+    ASSERT_TRUE(keyframe.message);
+    EXPECT_EQ(keyframe.message->status, geomap::keyframe_t::ACCEPTED);
+    EXPECT_EQ(keyframe.message->sequence, count[event->channel] - 1);
+    EXPECT_GT(keyframe.message->frame.depth.size, 0);
+    if (keyframe.message->sequence > 0) {
+      EXPECT_GT(keyframe.message->conditioning, 0.0);
+      EXPECT_EQ(keyframe.message->observed_directions, 6);
+    }
+  }
+  const auto keyframes = static_cast<std::int64_t>(result.report.keyframes.size());
+  EXPECT_EQ(count[messaging::channels::kCameraPose], 20);
+  EXPECT_EQ(count[messaging::channels::kKeyframe], keyframes);
+  EXPECT_EQ(count[messaging::channels::kOdomToWorld], keyframes);
+  EXPECT_EQ(count[messaging::channels::kPlanes], keyframes);
 }
 
 TEST_F(Replay, LogsOfOtherLcmCameraDriversAreMappedWithTheCameraOfTheSettings) {
@@ -197,7 +241,8 @@ TEST(PipelineConfig, TheDefaultFileHoldsTheDefaultsOfTheClassesAndNothingElse) {
   checks.expect_defaults<messaging::CameraConfig>("driver_camera.color");
   checks.expect_defaults<perception::PriorConfig>("prior");
   checks.expect_defaults<perception::KeyframeConfig>("keyframes");
-  checks.expect_defaults<perception::TrustPriorConfig>("registration");
+  checks.expect_defaults<perception::RegistrationConfig>("registration");
+  checks.expect_defaults<perception::DepthCorrectionConfig>("depth_correction");
   checks.expect_defaults<perception::PointMapConfig>("point_map");
   checks.expect_defaults<perception::RansacExtractorConfig>("ransac");
   checks.expect_defaults<mapping::MergeConfig>("merge");
