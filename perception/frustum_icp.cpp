@@ -23,7 +23,9 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 constexpr std::size_t kCoarseStride = 4;
 constexpr int kLeastPartners = 30;
 constexpr double kConvergedTranslation = 1e-3, kConvergedAngle = 1e-3;  // [m], [rad]
-constexpr double kDoneTranslation = 1e-5, kDoneAngle = 1e-5;
+constexpr double kDone = 1e-5;                                          // [m], [rad]
+constexpr double kLeastDamping = 1e-6;                                  // share of the weight
+constexpr int kRounds = 4;
 constexpr double kCorrelation = 20.0;  // surfels that say no more than one
 constexpr double kNoiseFactor = 2.0;   // information over that of the normals' noise
 constexpr int kPatch = 8;              // pixels of the view that overlap is judged by at once
@@ -103,38 +105,61 @@ class Aligner {
   Alignment run(const Eigen::Isometry3d& prior) {
     Alignment result;
     result.T_world_camera = prior;
-    if (!iterate(prior, result)) return result;
-    // The noise of the normals shows only now that the views are aligned. Where the set of observed
-    // directions was wrong, the steps were: once more with the right one.
-    const int before = observed_;
-    std::vector<double> normals;
-    const StepSums sums = sum(config_.gate, 1, nullptr, &normals);
-    if (sums.partners < kLeastPartners) return result;
-    find_observed(sums, kNoiseFactor * normal_variance(std::move(normals)), 1);
-    if (observed_ != before && !iterate(prior, result)) return result;
+    start_ = prior;
+    start_.linear() = Eigen::Quaterniond(prior.linear()).normalized().toRotationMatrix();
+    T_ = start_;
+    if (!approach(result)) return result;
+    // Which directions are observed, and the noise of the normals, show only once the view is
+    // aligned. Where the set was wrong, the pose was: once more with the right one.
+    for (int round = 0; round < kRounds; ++round) {
+      const int before = observed_;
+      std::vector<double> normals;
+      const StepSums sums = sum(config_.gate, 1, nullptr, &normals);
+      if (sums.partners < kLeastPartners) return result;
+      find_observed(sums, kNoiseFactor * normal_variance(std::move(normals)));
+      if (observed_ == before) break;
+      if (!refine(result)) return result;
+    }
     judge(result);
     return result;
   }
 
  private:
-  // @return false when too few partners are left.
-  bool iterate(const Eigen::Isometry3d& prior, Alignment& result) {
-    T_ = prior;
-    T_.linear() = Eigen::Quaterniond(prior.linear()).normalized().toRotationMatrix();
-    for (int i = 0; i < config_.max_iterations; ++i) {
-      const bool coarse = i < config_.coarse_iterations;
-      const std::size_t stride = coarse ? kCoarseStride : 1;
+  // Coarse steps, in all directions: from a wrong pose the partners do not tell which are observed.
+  // Damped, so that those which are not stay near the prior. @return false when too few partners
+  // are left.
+  bool approach(Alignment& result) {
+    directions_.setIdentity();
+    observed_ = 6;
+    for (int i = 0; i < std::min(config_.coarse_iterations, config_.max_iterations); ++i) {
       const double gate = std::max(config_.gate, std::ldexp(config_.coarse_gate, -i));
-      const StepSums sums = sum(gate, stride);
-      result.partners = sums.partners;
-      ++result.iterations;
-      if (sums.partners < kLeastPartners) return false;
-      if (observed_ < 0) find_observed(sums, 0.0, stride);
-      const auto [translation, angle] = step(sums);
-      result.converged = translation < kConvergedTranslation && angle < kConvergedAngle;
-      const bool settled = gate == config_.gate && !coarse;
-      if (settled && translation < kDoneTranslation && angle < kDoneAngle) break;
+      const StepSums sums = sum(gate, kCoarseStride);
+      radius_ = sums.radius();
+      const double damping = sums.weight * std::max(kLeastDamping, config_.least_information);
+      if (!advance(sums, damping, result)) return false;
     }
+    observed_ = -1;  // not known yet
+    return true;
+  }
+
+  // Within the observed directions, from what the steps before have found in these.
+  bool refine(Alignment& result) {
+    keep_observed();
+    for (int i = config_.coarse_iterations; i < config_.max_iterations; ++i) {
+      const double gate = std::max(config_.gate, std::ldexp(config_.coarse_gate, -i));
+      if (!advance(sum(gate, 1), 0.0, result)) return false;
+      if (gate == config_.gate && last_step_ < kDone && last_angle_ < kDone) break;
+    }
+    return true;
+  }
+
+  bool advance(const StepSums& sums, double damping, Alignment& result) {
+    result.partners = sums.partners;
+    ++result.iterations;
+    result.converged = false;
+    if (sums.partners < kLeastPartners) return false;
+    step(sums, damping);
+    result.converged = last_step_ < kConvergedTranslation && last_angle_ < kConvergedAngle;
     return true;
   }
 
@@ -192,10 +217,9 @@ class Aligner {
   }
 
   // @param noise_share of the whole weight that noise feigns.
-  void find_observed(const StepSums& sums, double noise_share, std::size_t stride) {
+  void find_observed(const StepSums& sums, double noise_share) {
     const auto solver = decompose(sums);
-    const double prior =
-        kCorrelation / (static_cast<double>(stride) * config_.prior_sigma * config_.prior_sigma);
+    const double prior = kCorrelation / (config_.prior_sigma * config_.prior_sigma);
     const double least =
         std::max(prior, sums.weight * std::max(noise_share, config_.least_information));
     radius_ = sums.radius();
@@ -207,24 +231,48 @@ class Aligner {
     }
   }
 
-  // Gauss-Newton within the observed directions. @return length [m] and angle [rad] of the step.
-  std::pair<double, double> step(const StepSums& sums) {
-    if (observed_ == 0) return {0.0, 0.0};
-    Vector6 scale = Vector6::Ones();
-    scale.tail<3>().setConstant(1.0 / radius_);
+  // Gauss-Newton within the observed directions.
+  void step(const StepSums& sums, double damping) {
+    last_step_ = last_angle_ = 0.0;
+    if (observed_ == 0) return;
     const Eigen::Matrix<double, 6, Eigen::Dynamic> basis =
-        scale.asDiagonal() * directions_.leftCols(observed_);
-    const Eigen::MatrixXd information = basis.transpose() * sums.matrix() * basis;
+        scale().asDiagonal() * directions_.leftCols(observed_);
+    Eigen::MatrixXd information = basis.transpose() * sums.matrix() * basis;
+    information.diagonal().array() += damping;
     const Eigen::VectorXd vector = basis.transpose() * Vector6(sums.vector.data());
     const Vector6 twist = basis * information.ldlt().solve(vector);
-    const double angle = twist.tail<3>().norm();
-    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-    if (angle > 0.0) {
-      turn = Eigen::AngleAxisd(angle, twist.tail<3>() / angle).toRotationMatrix();
-    }
-    T_.linear() = Eigen::Quaterniond(turn * T_.linear()).normalized().toRotationMatrix();
+    last_step_ = twist.head<3>().norm();
+    last_angle_ = twist.tail<3>().norm();
+    T_.linear() = turned(T_, twist.tail<3>());
     T_.translation() += twist.head<3>();
-    return {twist.head<3>().norm(), angle};
+    keep_observed();
+  }
+
+  // Turns about different axes add up to one about a third, which may be open. So it is the whole
+  // correction of the start that is projected.
+  void keep_observed() {
+    if (observed_ == 6) return;
+    const Eigen::AngleAxisd turn(
+        Eigen::Quaterniond(T_.linear() * start_.linear().transpose()).normalized());
+    Vector6 twist;
+    twist << T_.translation() - start_.translation(), turn.angle() * turn.axis();
+    const auto observed = directions_.leftCols(observed_);
+    const Vector6 lengths = scale().cwiseInverse().asDiagonal() * twist;
+    twist = scale().asDiagonal() * (observed * (observed.transpose() * lengths)).eval();
+    T_.linear() = turned(start_, twist.tail<3>());
+    T_.translation() = start_.translation() + twist.head<3>();
+  }
+
+  Vector6 scale() const {  // from lengths to a twist
+    Vector6 scale = Vector6::Ones();
+    scale.tail<3>().setConstant(1.0 / radius_);
+    return scale;
+  }
+  static Eigen::Matrix3d turned(const Eigen::Isometry3d& T, const Eigen::Vector3d& rotation) {
+    const double angle = rotation.norm();
+    if (!(angle > 0.0)) return T.linear();
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, rotation / angle));
+    return (turn * Eigen::Quaterniond(T.linear())).normalized().toRotationMatrix();
   }
 
   // Once more at the final pose: how good is it?
@@ -248,10 +296,12 @@ class Aligner {
   const SurfaceImage& view_;
   const FrustumIcpConfig& config_;
   double least_cosine_;
-  Eigen::Isometry3d T_ = Eigen::Isometry3d::Identity();  // T_world_camera
+  Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();  // the prior, orthonormal
+  Eigen::Isometry3d T_ = Eigen::Isometry3d::Identity();      // T_world_camera
   double radius_ = 1.0;
-  int observed_ = -1;                     // directions; negative: not known yet
-  Matrix6 directions_ = Matrix6::Zero();  // its first observed_ columns
+  double last_step_ = 0.0, last_angle_ = 0.0;  // [m], [rad]
+  int observed_ = -1;                          // directions; negative: not known yet
+  Matrix6 directions_ = Matrix6::Zero();       // its first observed_ columns
 };
 
 }  // namespace
