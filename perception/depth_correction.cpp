@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 
 namespace geomap::perception {
@@ -40,7 +41,9 @@ double DepthCorrection::largest_difference(const DepthCorrection& a, const Depth
 
 geometry::RgbdFrame corrected(const geometry::RgbdFrame& frame, const DepthCorrection& correction) {
   const geometry::CameraModel& camera = frame.depth_camera;
-  if (frame.depth.width != camera.width || frame.depth.height != camera.height) {
+  if (!camera.valid() || frame.depth.width != camera.width || frame.depth.height != camera.height ||
+      frame.depth.millimetres.size() !=
+          static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height)) {
     throw std::invalid_argument("depth correction: depth image and camera disagree");
   }
   geometry::RgbdFrame result = frame;
