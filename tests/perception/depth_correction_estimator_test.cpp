@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/depth_correction_estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "distorted_views.hpp"
+#include "registration_scenes.hpp"
+
+namespace geomap::perception {
+namespace {
+
+using Eigen::Isometry3d;
+using geometry::CameraModel;
+
+/// What the estimator makes of all pairs of views with this error.
+/// @param metres, degrees of error of each pose that it is told.
+DepthCorrection learnt(const DepthCorrection& truth, double metres, double degrees,
+                       const DepthCorrection& applied = DepthCorrection()) {
+  std::vector<SurfaceImage> views;
+  std::vector<Isometry3d> told;
+  for (const Isometry3d& T : poses_around_the_room()) {
+    const auto rendering = testing::render(testing::small_room(), testing::kinect_camera(7), T);
+    views.emplace_back(corrected(distorted(rendering, truth), applied), 0.4, 5.0);
+    told.push_back(disturbed(T, metres, degrees, static_cast<unsigned>(told.size() + 1)));
+  }
+  DepthCorrectionEstimator estimator;
+  for (std::size_t a = 0; a < views.size(); ++a) {
+    for (std::size_t b = a + 1; b < views.size(); ++b) {
+      estimator.add(views[a], told[a], views[b], told[b], applied);
+    }
+  }
+  return estimator.estimate();
+}
+
+/// Root mean square over the image.
+double rms(const DepthCorrection& correction) {
+  const CameraModel camera = testing::kinect_camera(7);
+  double squares = 0.0;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const Eigen::Vector3d ray = camera.ray(u, v);
+      squares += std::pow(correction.share(ray.x(), ray.y()), 2);
+    }
+  }
+  return std::sqrt(squares / (camera.width * camera.height));
+}
+
+double relative_error(const DepthCorrection& found, const DepthCorrection& truth) {
+  return rms(DepthCorrection(found.coefficients() - truth.coefficients())) / rms(truth);
+}
+
+TEST(DepthCorrectionEstimator, WithoutViewsThereIsNoCorrection) {
+  EXPECT_TRUE(DepthCorrectionEstimator().estimate().is_none());
+}
+
+TEST(DepthCorrectionEstimator, LearnsAFixedErrorFromViewsWithKnownPoses) {
+  const double error = relative_error(learnt(bowl(), 0.0, 0.0), bowl());
+  EXPECT_LT(error, 0.3);
+  RecordProperty("relative error", std::to_string(error));
+}
+
+TEST(DepthCorrectionEstimator, LearnsItAsWellWherePosesAreOffByACentimetre) {
+  const double error = relative_error(learnt(bowl(), 0.01, 0.5), bowl());
+  EXPECT_LT(error, 0.3);
+  RecordProperty("relative error", std::to_string(error));
+}
+
+TEST(DepthCorrectionEstimator, FindsTheWholeErrorWhereAPartIsCorrectedAlready) {
+  const DepthCorrection half(0.5 * bowl().coefficients());
+  EXPECT_LT(relative_error(learnt(bowl(), 0.0, 0.0, half), bowl()), 0.3);
+}
+
+TEST(DepthCorrectionEstimator, FindsNothingWhereThereIsNoError) {
+  const CameraModel camera = testing::kinect_camera();
+  for (const double metres : {0.0, 0.01}) {
+    const double largest = DepthCorrection::largest_difference(
+        learnt(DepthCorrection(), metres, 50.0 * metres), DepthCorrection(), camera);
+    EXPECT_LT(largest, 0.001);
+    RecordProperty("largest at " + std::to_string(metres) + " m", std::to_string(largest));
+  }
+}
+
+TEST(DepthCorrectionEstimator, TakesNothingFromViewsThatShareNothing) {
+  const RegistrationScene room = room_scene();
+  const SurfaceImage view = exact_view(room, room.T_world_camera);
+  const Isometry3d elsewhere = Eigen::Translation3d(20.0, 0.0, 0.0) * room.T_world_camera;
+  DepthCorrectionEstimator estimator;
+  EXPECT_EQ(estimator.add(view, room.T_world_camera, view, elsewhere, {}), 0);
+  EXPECT_TRUE(estimator.estimate().is_none());
+}
+
+// What the data do not support stays zero: two views say little, and no more than the truth.
+TEST(DepthCorrectionEstimator, FewViewsGiveACautiousCorrection) {
+  const std::vector<Isometry3d> all = poses_around_the_room();
+  std::vector<SurfaceImage> views;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto rendering =
+        testing::render(testing::small_room(), testing::kinect_camera(7), all[i]);
+    views.emplace_back(distorted(rendering, bowl()), 0.4, 5.0);
+  }
+  DepthCorrectionEstimator estimator;
+  EXPECT_GT(estimator.add(views[0], all[0], views[1], all[1], {}), 500);
+  EXPECT_LT(rms(estimator.estimate()), rms(bowl()));
+  EXPECT_LT(relative_error(estimator.estimate(), bowl()), 1.0);
+}
+
+TEST(DepthCorrectionEstimator, RefusesSettingsThatMakeNoSense) {
+  DepthCorrectionConfig config;
+  config.sigma = 0.0;
+  config.linear_sigma = 1.0;
+  config.least_change = -1.0;
+  config.correlation = 0.5;
+  EXPECT_EQ(config.validate().size(), 4U);
+  EXPECT_THROW(DepthCorrectionEstimator{config}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace geomap::perception
