@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/depth_correction.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,17 +67,13 @@ TEST(DepthCorrection, CorrectsEachReadingByItsShare) {
 }
 
 TEST(DepthCorrection, LeavesPixelsWithoutAReadingAndWhatWouldLeaveTheRange) {
-  Terms coefficients = Terms::Zero();
-  coefficients(0) = 0.5;
-  coefficients(2) = 1.0;
+  Terms slope = Terms::Zero();
+  slope(0) = 0.5;
   RgbdFrame frame;
-  frame.depth_camera = {4, 1, 2.0, 2.0, 0.0, 0.0};
-  frame.depth = {4, 1, {0, 0xffff, 65000, 1000}};
-  const RgbdFrame better = corrected(frame, DepthCorrection(coefficients));
-  EXPECT_EQ(better.depth.millimetres[0], 0);
-  EXPECT_EQ(better.depth.millimetres[1], 0xffff);
-  EXPECT_EQ(better.depth.millimetres[2], 65000);
-  EXPECT_GT(better.depth.millimetres[3], 1000);
+  frame.depth_camera = {5, 1, 2.0, 2.0, 2.0, 0.0};  // s: -0.9, -0.5, 0, 0.5, 0.9
+  frame.depth = {5, 1, {0xffff, 1000, 0, 0xffff, 65000}};
+  const RgbdFrame better = corrected(frame, DepthCorrection(slope));
+  EXPECT_THAT(better.depth.millimetres, ::testing::ElementsAre(0xffff, 545, 0, 0xffff, 65000));
 }
 
 TEST(DepthCorrection, NoneLeavesTheFrameAsItIs) {
