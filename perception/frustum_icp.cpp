@@ -26,7 +26,7 @@ constexpr double kConvergedTranslation = 1e-3, kConvergedAngle = 1e-3;  // [m], 
 constexpr double kDone = 1e-5;                                          // [m], [rad]
 constexpr double kLeastDamping = 1e-6;                                  // share of the weight
 constexpr int kRounds = 4;
-constexpr double kCorrelation = 20.0;  // surfels that say no more than one
+constexpr double kCorrelation = 8.0;  // surfels that say no more than one
 constexpr double kNoiseFactor = 2.0;   // information over that of the normals' noise
 constexpr int kPatch = 8;              // pixels of the view that overlap is judged by at once
 

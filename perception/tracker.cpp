@@ -83,7 +83,9 @@ std::optional<Tracker::Start> Tracker::start_of(const Prior& prior, std::int64_t
   const bool first = keyframes_.empty();
   const bool absolute = config_.prior.kind == "localisation";
   const bool holds = absolute || first || (linked_ && breaks_ == odometry_breaks());
-  if (prior.T_world_camera && (holds || !aligns())) {
+  // A single pose that is merely held says nothing of the motion since.
+  const bool follows = first || prior.reason != PriorReason::kHeld;
+  if (prior.T_world_camera && ((holds && follows) || !aligns())) {
     return Start{orthonormal(*prior.T_world_camera), PriorSource::kMeasured};
   }
   if (!aligns()) return std::nullopt;
