@@ -4,15 +4,16 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include "geometry/angles.hpp"
+#include "perception/icp_sums.hpp"
 #include "perception/registration_weight.hpp"
 #include "perception/rigid_transform.hpp"
+#include "perception/view_overlap.hpp"
 
 namespace geomap::perception {
 namespace {
@@ -27,71 +28,7 @@ constexpr double kDone = 1e-5;                                          // [m], 
 constexpr double kLeastDamping = 1e-6;                                  // share of the weight
 constexpr int kRounds = 4;
 constexpr double kCorrelation = 8.0;  // surfels that say no more than one
-constexpr double kNoiseFactor = 2.0;   // information over that of the normals' noise
-constexpr int kPatch = 8;              // pixels of the view that overlap is judged by at once
-
-// Normal equations of one step, about the camera's centre in the world's axes.
-struct StepSums {
-  std::array<double, 21> information{};  // upper triangle, row by row
-  std::array<double, 6> vector{};
-  double weight = 0.0;
-  double squares = 0.0;         // Σ w e²
-  double radius_squares = 0.0;  // Σ w |p|²
-  int partners = 0;
-  int seen_through = 0;  // surfels nearer than the view's surface by more than the gate
-
-  void add(double w, double e, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
-    const Eigen::Vector3d m = p.cross(n);
-    const std::array<double, 6> j = {n.x(), n.y(), n.z(), m.x(), m.y(), m.z()};
-    for (std::size_t r = 0, k = 0; r < 6; ++r) {
-      const double wj = w * j[r];
-      for (std::size_t c = r; c < 6; ++c) information[k++] += wj * j[c];
-      vector[r] += wj * e;
-    }
-    weight += w;
-    squares += w * e * e;
-    radius_squares += w * p.squaredNorm();
-    ++partners;
-  }
-  Matrix6 matrix() const {
-    Matrix6 m;
-    for (int r = 0, k = 0; r < 6; ++r) {
-      for (int c = r; c < 6; ++c, ++k) m(r, c) = m(c, r) = information[static_cast<std::size_t>(k)];
-    }
-    return m;
-  }
-  double radius() const { return std::max(0.1, std::sqrt(radius_squares / weight)); }
-};
-
-// Which eighths of the view hold a surface, and on which a partner was found.
-class Overlap {
- public:
-  explicit Overlap(const SurfaceImage& view)
-      : columns_((view.width() + kPatch - 1) / kPatch),
-        surfaces_(static_cast<std::size_t>(columns_ * ((view.height() + kPatch - 1) / kPatch)), 0),
-        found_(surfaces_.size(), 0) {
-    for (int v = 0; v < view.height(); ++v) {
-      for (int u = 0; u < view.width(); ++u) surfaces_[patch(u, v)] += view.at(u, v).valid();
-    }
-  }
-  void mark(int u, int v) { found_[patch(u, v)] = 1; }
-  double share() const {
-    int all = 0, found = 0;
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-      all += surfaces_[i];
-      found += found_[i] != 0 ? surfaces_[i] : 0;
-    }
-    return all > 0 ? static_cast<double>(found) / all : 0.0;
-  }
-
- private:
-  std::size_t patch(int u, int v) const {
-    return static_cast<std::size_t>(v / kPatch * columns_ + u / kPatch);
-  }
-  int columns_;
-  std::vector<int> surfaces_;
-  std::vector<char> found_;
-};
+constexpr double kNoiseFactor = 2.0;  // information over that of the normals' noise
 
 class Aligner {
  public:
@@ -114,7 +51,7 @@ class Aligner {
     for (int round = 0; round < kRounds; ++round) {
       const int before = observed_;
       std::vector<double> normals;
-      const StepSums sums = sum(config_.gate, 1, nullptr, &normals);
+      const IcpSums sums = sum(config_.gate, 1, nullptr, &normals);
       if (sums.partners < kLeastPartners) return result;
       find_observed(sums, kNoiseFactor * normal_variance(std::move(normals)));
       if (observed_ == before) break;
@@ -133,7 +70,7 @@ class Aligner {
     observed_ = 6;
     for (int i = 0; i < std::min(config_.coarse_iterations, config_.max_iterations); ++i) {
       const double gate = std::max(config_.gate, std::ldexp(config_.coarse_gate, -i));
-      const StepSums sums = sum(gate, kCoarseStride);
+      const IcpSums sums = sum(gate, kCoarseStride);
       radius_ = sums.radius();
       const double damping = sums.weight * std::max(kLeastDamping, config_.least_information);
       if (!advance(sums, damping, result)) return false;
@@ -153,7 +90,7 @@ class Aligner {
     return true;
   }
 
-  bool advance(const StepSums& sums, double damping, Alignment& result) {
+  bool advance(const IcpSums& sums, double damping, Alignment& result) {
     result.partners = sums.partners;
     ++result.iterations;
     result.converged = false;
@@ -165,11 +102,11 @@ class Aligner {
 
   // @param overlap, normals to be filled, null while only the step matters: what of the view has
   // partners, and the squared differences of the partners' normals.
-  StepSums sum(double gate, std::size_t stride, Overlap* overlap = nullptr,
-               std::vector<double>* normals = nullptr) const {
+  IcpSums sum(double gate, std::size_t stride, ViewOverlap* overlap = nullptr,
+              std::vector<double>* normals = nullptr) const {
     const Eigen::Matrix3d R_camera_world = T_.linear().transpose();
     const Eigen::Vector3d centre = T_.translation();
-    StepSums sums;
+    IcpSums sums;
     for (std::size_t i = 0; i < surfels_.size(); i += stride) {
       const Surfel& surfel = surfels_[i];
       const Eigen::Vector3d arm = surfel.position - centre;
@@ -199,7 +136,7 @@ class Aligner {
   }
 
   // Eigenvalues [1/m²] of the information with rotations as lengths, ascending.
-  static Eigen::SelfAdjointEigenSolver<Matrix6> decompose(const StepSums& sums) {
+  static Eigen::SelfAdjointEigenSolver<Matrix6> decompose(const IcpSums& sums) {
     Vector6 scale = Vector6::Ones();
     scale.tail<3>().setConstant(1.0 / sums.radius());
     return Eigen::SelfAdjointEigenSolver<Matrix6>(scale.asDiagonal() * sums.matrix() *
@@ -217,7 +154,7 @@ class Aligner {
   }
 
   // @param noise_share of the whole weight that noise feigns.
-  void find_observed(const StepSums& sums, double noise_share) {
+  void find_observed(const IcpSums& sums, double noise_share) {
     const auto solver = decompose(sums);
     const double prior = kCorrelation / (config_.prior_sigma * config_.prior_sigma);
     const double least =
@@ -232,7 +169,7 @@ class Aligner {
   }
 
   // Gauss-Newton within the observed directions.
-  void step(const StepSums& sums, double damping) {
+  void step(const IcpSums& sums, double damping) {
     last_step_ = last_angle_ = 0.0;
     if (observed_ == 0) return;
     const Eigen::Matrix<double, 6, Eigen::Dynamic> basis =
@@ -277,8 +214,8 @@ class Aligner {
 
   // Once more at the final pose: how good is it?
   void judge(Alignment& result) const {
-    Overlap overlap(view_);
-    const StepSums sums = sum(config_.gate, 1, &overlap);
+    ViewOverlap overlap(view_);
+    const IcpSums sums = sum(config_.gate, 1, &overlap);
     result.T_world_camera = T_;
     result.partners = sums.partners;
     if (sums.partners == 0) return;

@@ -22,7 +22,7 @@ struct FrustumIcpConfig {
   double gate = 0.03;                  // and in the end [m]; halves from step to step in between
   double max_normal_angle_deg = 40.0;  // between the normals of partners
   double prior_sigma = 0.05;           // what is known of the pose beforehand [m], see align()
-  double least_information = 0.0007;    // of a direction, against one that every surfel fixes
+  double least_information = 0.0007;   // of a direction, against one that every surfel fixes
 
   std::vector<std::string> validate() const;
 
