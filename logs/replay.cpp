@@ -21,6 +21,7 @@
 #include "messaging/log_writer.hpp"
 #include "messaging/program.hpp"
 #include "messaging/progress_bar.hpp"
+#include "messaging/safe_decode.hpp"
 #include "perception/keyframe_messages.hpp"
 #include "perception/point_map_ply.hpp"
 
@@ -62,10 +63,22 @@ struct Pass {
 
   Pipeline pipeline;
   LogInput input;
+  Trajectory reference;  // TRUTH_POSE, where the log has it: for evaluation, not for the pipeline
   bool log_damaged = false;
   bool stopped = false;
   double seconds = 0.0;
 };
+
+void note_reference(const messaging::LogEvent& event, Trajectory& reference) {
+  if (event.channel != channels::kTruthPose) return;
+  const auto pose =
+      messaging::safe_decode<bot_core::rigid_transform_t>(event.data.data(), event.data.size());
+  const bool later =
+      reference.empty() || (pose.message && pose.message->utime > reference.back().first);
+  if (pose.message && pose.message->utime >= 0 && later) {
+    reference.emplace_back(pose.message->utime, messaging::from_message(*pose.message));
+  }
+}
 
 void run(Pass& pass, const std::string& log) {
   const Stopwatch stopwatch;
@@ -73,6 +86,7 @@ void run(Pass& pass, const std::string& log) {
   messaging::ProgressBar progress("frames", 0);
   while (const auto event = reader.next()) {
     pass.input.handle(*event);
+    note_reference(*event, pass.reference);
     progress.update(pass.pipeline.frames(),
                     pass.pipeline.frames() * reader.size() / reader.position());
     if (messaging::stop_requested()) {
@@ -209,6 +223,9 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   }
 
   write_results(pipeline, report.map, options.output);
+  if (!first.reference.empty()) {
+    write_trajectory(options.output / "reference.tum", first.reference);
+  }
   pictures.write(options.output / "pictures");
   report.log = options.log;
   report.extractor = "ransac";
