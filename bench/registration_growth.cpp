@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "geometry/angles.hpp"
-#include "perception/icp_registration.hpp"
 #include "registration_bench.hpp"
+#include "registration_stages.hpp"
 #include "statistics.hpp"
 #include "support/plane_renderer.hpp"
 
@@ -48,7 +48,7 @@ Eigen::Isometry3d T_world_room(int room, double voxel_size) {
 }
 
 struct Times {
-  std::vector<double> align, insert, total;  // [ms]
+  std::vector<double> select, align, insert, total;  // [ms]
   int blocks_visited = 0;
 };
 
@@ -56,7 +56,6 @@ struct Times {
 // another room where `everywhere`, so that nothing of the map is left in the caches by the last.
 Times run(PointMap& map, const View& view, int rooms, bool everywhere,
           const RegistrationBenchSettings& settings) {
-  const IcpRegistration registration(settings.tracker.registration.icp);
   const FrameView made = map.view(view.frame);
   Eigen::Isometry3d off = Eigen::Isometry3d::Identity();
   off.translation() = Eigen::Vector3d(0.02, -0.01, 0.02);
@@ -67,15 +66,19 @@ Times run(PointMap& map, const View& view, int rooms, bool everywhere,
     const int room = everywhere ? i * 7 % rooms : 0;
     const Eigen::Isometry3d prior =
         T_world_room(room, settings.tracker.point_map.voxels.voxel_size) * view.T_room_camera * off;
+    const IcpRegistrationConfig& config = settings.tracker.registration.icp;
     FrameView copy = made;
-    RegistrationResult result;
+    SurfelSelection selection;
+    Alignment found;
+    times.select.push_back(milliseconds(
+        [&] { selection = select_surfels(map.voxels(), copy, prior, config.margin); }));
     times.align.push_back(milliseconds(
-        [&] { result = registration.align(copy, map.voxels(), prior, PriorSource::kMeasured); }));
-    if (!result.accepted) throw std::runtime_error("growth: an alignment was rejected");
+        [&] { found = perception::align(selection.surfels, copy.surfaces, prior, config.icp); }));
+    if (!found.converged) throw std::runtime_error("growth: an alignment did not converge");
     times.insert.push_back(
-        milliseconds([&] { map.insert(-1, std::move(copy), result.T_world_camera); }));
-    times.total.push_back(times.align.back() + times.insert.back());
-    times.blocks_visited = result.blocks_visited;
+        milliseconds([&] { map.insert(-1, std::move(copy), found.T_world_camera); }));
+    times.total.push_back(times.select.back() + times.align.back() + times.insert.back());
+    times.blocks_visited = selection.blocks_visited;
     map.remove(-1);
   }
   return times;
@@ -89,8 +92,10 @@ void bench_growth(const RegistrationBenchSettings& settings) {
   PointMap map(settings.tracker.point_map);
   int rooms = 0;
   std::printf("A view of a room in a growing map (medians [ms])\n");
-  std::printf("%6s %9s %8s %8s  %-22s  %-33s\n", "rooms", "points", "blocks", "visited",
-              "always the same room", "each time another room");
+  const char* columns = " select   align  insert     sum  to 1 ";
+  std::printf("%33s  %-40s%s\n", "", "always the same room", "each time another room");
+  std::printf("%6s %9s %7s %8s  %s  %s\n", "rooms", "points", "blocks", "visited", columns,
+              columns);
   double first = 0.0, first_everywhere = 0.0;
   for (const int size : kSizes) {
     for (; rooms < size; ++rooms) {
@@ -105,10 +110,10 @@ void bench_growth(const RegistrationBenchSettings& settings) {
     const Times other = run(map, added, size, true, settings);
     if (size == 1) first = median(same.total), first_everywhere = median(other.total);
     const auto print = [](const Times& times, double reference) {
-      std::printf("  align %.3f insert %.3f sum %.3f = %.2f x", median(times.align),
+      std::printf("  %7.3f %7.3f %7.3f %7.3f %5.2f x", median(times.select), median(times.align),
                   median(times.insert), median(times.total), median(times.total) / reference);
     };
-    std::printf("%6d %9zu %8zu %8d", size, map.size(), map.voxels().blocks().size(),
+    std::printf("%6d %9zu %7zu %8d", size, map.size(), map.voxels().blocks().size(),
                 same.blocks_visited);
     print(same, first);
     print(other, first_everywhere);

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/frustum.hpp"
 #include "perception/thin_frame.hpp"
 #include "posed_frames.hpp"
 #include "registration_bench.hpp"
+#include "registration_stages.hpp"
 #include "statistics.hpp"
 
 namespace geomap::bench {
@@ -95,11 +95,8 @@ class ProfiledMapping {
     if (map_.size() == 0) return prior;
     const IcpRegistrationConfig& config = config_.registration.icp;
     SurfelSelection selection;
-    stage[kSelection] = milliseconds([&] {
-      const Eigen::Isometry3d behind = prior * Eigen::Translation3d(0.0, 0.0, -2.0 * config.margin);
-      selection = map_.voxels().surfels_in(
-          {view.thin.depth_camera, 0.1, view.surfaces.farthest() + 3.0 * config.margin, behind});
-    });
+    stage[kSelection] = milliseconds(
+        [&] { selection = select_surfels(map_.voxels(), view, prior, config.margin); });
     Alignment found;
     stage[kAlignment] = milliseconds(
         [&] { found = perception::align(selection.surfels, view.surfaces, prior, config.icp); });
