@@ -24,15 +24,20 @@ constexpr double kConverged = 1e-8;    // squared step of both ICP [m²]
 Cloud::Ptr deproject(const geometry::RgbdFrame& frame) {
   const Cloud::Ptr cloud(new Cloud);
   const geometry::CameraModel& camera = frame.depth_camera;
-  cloud->reserve(frame.depth.millimetres.size());
+  const auto fx = static_cast<float>(1e-3 / camera.fx), fy = static_cast<float>(1e-3 / camera.fy);
+  const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+  cloud->resize(frame.depth.millimetres.size());
+  std::size_t size = 0;
   for (int v = 0; v < frame.depth.height; ++v) {
+    const float y = fy * (static_cast<float>(v) - cy);
     for (int u = 0; u < frame.depth.width; ++u) {
       const std::uint16_t reading = frame.depth.at(u, v);
       if (!geometry::DepthImage::is_reading(reading)) continue;
-      const Eigen::Vector3f p = camera.point(u, v, 0.001 * reading).cast<float>();
-      cloud->push_back(pcl::PointXYZ(p.x(), p.y(), p.z()));
+      const float z = reading;
+      (*cloud)[size++] = pcl::PointXYZ(fx * (static_cast<float>(u) - cx) * z, y * z, 1e-3F * z);
     }
   }
+  cloud->resize(size);
   return cloud;
 }
 
