@@ -24,7 +24,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 constexpr std::size_t kCoarseStride = 4;
 constexpr int kLeastPartners = 30;
 constexpr double kConvergedTranslation = 1e-3, kConvergedAngle = 1e-3;  // [m], [rad]
-constexpr double kDone = 1e-5;                                          // [m], [rad]
+constexpr double kDone = 2e-4;                                          // [m], [rad]
 constexpr double kLeastDamping = 1e-6;                                  // share of the weight
 constexpr int kRounds = 4;
 constexpr double kCorrelation = 8.0;  // surfels that say no more than one
@@ -32,9 +32,8 @@ constexpr double kNoiseFactor = 2.0;  // information over that of the normals' n
 
 class Aligner {
  public:
-  Aligner(const std::vector<Surfel>& surfels, const SurfaceImage& view,
-          const FrustumIcpConfig& config)
-      : surfels_(surfels),
+  Aligner(std::vector<Surfel> surfels, const SurfaceImage& view, const FrustumIcpConfig& config)
+      : surfels_(std::move(surfels)),
         view_(view),
         config_(config),
         least_cosine_(std::cos(geometry::radians(config.max_normal_angle_deg))) {}
@@ -46,6 +45,7 @@ class Aligner {
     start_.linear() = Eigen::Quaterniond(prior.linear()).normalized().toRotationMatrix();
     T_ = start_;
     if (!approach(result)) return result;
+    keep_in_view();
     // Which directions are observed, and the noise of the normals, show only once the view is
     // aligned. Where the set was wrong, the pose was: once more with the right one.
     for (int round = 0; round < kRounds; ++round) {
@@ -77,6 +77,20 @@ class Aligner {
     }
     observed_ = -1;  // not known yet
     return true;
+  }
+
+  // What the fine steps cannot bring into the view costs them nothing.
+  void keep_in_view() {
+    constexpr double kBorder = 4.0;  // [pixel]
+    const geometry::CameraModel& camera = view_.camera();
+    const Eigen::Isometry3d T_camera_world = T_.inverse();
+    std::erase_if(surfels_, [&](const Surfel& surfel) {
+      const Eigen::Vector3d p = T_camera_world * surfel.position;
+      if (!(p.z() > 0.0)) return true;
+      const Eigen::Vector2d pixel = camera.project(p);
+      return !(pixel.x() > -kBorder && pixel.y() > -kBorder && pixel.x() < camera.width + kBorder &&
+               pixel.y() < camera.height + kBorder);
+    });
   }
 
   // Within the observed directions, from what the steps before have found in these.
@@ -229,7 +243,7 @@ class Aligner {
 
   static constexpr double kSeenThrough = 0.04;  // share of the depth
 
-  const std::vector<Surfel>& surfels_;
+  std::vector<Surfel> surfels_;
   const SurfaceImage& view_;
   const FrustumIcpConfig& config_;
   double least_cosine_;
@@ -262,12 +276,12 @@ std::vector<std::string> FrustumIcpConfig::validate() const {
   return errors;
 }
 
-Alignment align(const std::vector<Surfel>& surfels, const SurfaceImage& view,
+Alignment align(std::vector<Surfel> surfels, const SurfaceImage& view,
                 const Eigen::Isometry3d& T_world_camera_prior, const FrustumIcpConfig& config) {
   if (!is_rigid(T_world_camera_prior)) {
     throw std::invalid_argument("frustum ICP: the prior is not rigid");
   }
-  return Aligner(surfels, view, config).run(T_world_camera_prior);
+  return Aligner(std::move(surfels), view, config).run(T_world_camera_prior);
 }
 
 }  // namespace geomap::perception

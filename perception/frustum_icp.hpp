@@ -16,10 +16,10 @@ struct Surfel {
 };
 
 struct FrustumIcpConfig {
-  int max_iterations = 12;
+  int max_iterations = 30;
   int coarse_iterations = 3;           // with every fourth surfel and a wide gate
   double coarse_gate = 0.15;           // distance up to which partners are believed at first [m]
-  double gate = 0.03;                  // and in the end [m]; halves from step to step in between
+  double gate = 0.05;                  // and in the end [m]; halves from step to step in between
   double max_normal_angle_deg = 40.0;  // between the normals of partners
   double prior_sigma = 0.05;           // what is known of the pose beforehand [m], see align()
   double least_information = 0.0007;   // of a direction, against one that every surfel fixes
@@ -69,7 +69,7 @@ struct Alignment {
 /// @param surfels of the map, any order that depends on the map alone; those outside the view cost
 /// little and change nothing.
 /// @throws std::invalid_argument unless the prior is rigid.
-Alignment align(const std::vector<Surfel>& surfels, const SurfaceImage& view,
+Alignment align(std::vector<Surfel> surfels, const SurfaceImage& view,
                 const Eigen::Isometry3d& T_world_camera_prior, const FrustumIcpConfig& config = {});
 
 }  // namespace geomap::perception

@@ -2,6 +2,7 @@
 #include "perception/icp_registration.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "geometry/angles.hpp"
 #include "geometry/frustum.hpp"
@@ -56,11 +57,11 @@ RegistrationResult IcpRegistration::align(const FrameView& view, const VoxelMap&
     result.accepted = true;
     return result;
   }
-  const SurfelSelection selection =
+  SurfelSelection selection =
       map.surfels_in(frustum_of(view, T_world_camera_prior, config_.margin));
   result.blocks_visited = selection.blocks_visited;
-  result.alignment =
-      perception::align(selection.surfels, view.surfaces, T_world_camera_prior, config_.icp);
+  result.alignment = perception::align(std::move(selection.surfels), view.surfaces,
+                                       T_world_camera_prior, config_.icp);
   result.reason = judge(result, source);
   result.accepted = result.reason == RegistrationReason::kAligned;
   if (result.accepted) result.T_world_camera = result.alignment->T_world_camera;

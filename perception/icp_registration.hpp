@@ -17,7 +17,7 @@ struct IcpRegistrationConfig {
   double max_rms = 0.02;             // [m]
   double max_correction = 0.4;       // of the prior's position [m]
   double max_correction_deg = 25.0;  // and of its direction
-  double margin = 0.15;              // around the frustum, for what the prior may be off [m]
+  double margin = 0.1;               // around the frustum, for what the prior may be off [m]
 
   std::vector<std::string> validate() const;
 

@@ -19,7 +19,7 @@
 namespace geomap::perception {
 
 struct VoxelMapConfig {
-  double voxel_size = 0.04;  // [m]
+  double voxel_size = 0.03;  // [m]
   double min_depth = 0.4;    // readings nearer than this are left out [m]
   double max_depth = 5.0;    // readings farther than this are left out [m]
 
