@@ -28,7 +28,6 @@ constexpr double kDone = 2e-4;                                          // [m], 
 constexpr double kLeastDamping = 1e-6;                                  // share of the weight
 constexpr int kRounds = 4;
 constexpr double kCorrelation = 8.0;  // surfels that say no more than one
-constexpr double kNoiseFactor = 2.0;  // information over that of the normals' noise
 
 class Aligner {
  public:
@@ -53,7 +52,7 @@ class Aligner {
       std::vector<double> normals;
       const IcpSums sums = sum(config_.gate, 1, nullptr, &normals);
       if (sums.partners < kLeastPartners) return result;
-      find_observed(sums, kNoiseFactor * normal_variance(std::move(normals)));
+      find_observed(sums, config_.noise_factor * normal_variance(std::move(normals)));
       if (observed_ == before) break;
       if (!refine(result)) return result;
     }
@@ -270,6 +269,7 @@ std::vector<std::string> FrustumIcpConfig::validate() const {
     errors.push_back("max_normal_angle_deg must be above 0 and at most 90");
   }
   if (!(prior_sigma > 0.0)) errors.push_back("prior_sigma must be above 0 m");
+  if (!(noise_factor >= 0.0)) errors.push_back("noise_factor must not be negative");
   if (!(least_information >= 0.0) || !(least_information < 1.0)) {
     errors.push_back("least_information must be at least 0 and below 1");
   }

@@ -24,6 +24,8 @@ struct FrustumIcpConfig {
   double prior_sigma = 0.05;           // what is known of the pose beforehand [m], see align()
   double least_information = 0.0007;   // of a direction, against one that every surfel fixes
 
+  double noise_factor = 2.0;  // and against what noise of the normals feigns
+
   std::vector<std::string> validate() const;
 
   template <typename Self, typename Visitor>
@@ -35,6 +37,7 @@ struct FrustumIcpConfig {
     visitor("max_normal_angle_deg", self.max_normal_angle_deg);
     visitor("prior_sigma", self.prior_sigma);
     visitor("least_information", self.least_information);
+    visitor("noise_factor", self.noise_factor);
   }
 };
 
@@ -61,10 +64,11 @@ struct Alignment {
 ///
 /// Rotations are scaled by the partners' rms distance from the camera, so that all six directions
 /// are lengths. The eigenvectors of the information matrix whose information exceeds the prior's
-/// (1/prior_sigma²), least_information of the whole weight, and four times what the observed
-/// disagreement of normals alone would feign, count as observed. They are fixed at the first step,
-/// every step is projected onto them, and the rest of the pose stays the prior's: what a wall, a
-/// floor or a corridor does not tell is not made up.
+/// (1/prior_sigma²), least_information of the whole weight, and noise_factor times what the
+/// disagreement of the partners' normals alone would feign, count as observed. They are judged once
+/// coarse steps in all directions have aligned the view; from then on the correction of the prior
+/// is projected onto them, and the rest of the pose stays the prior's: what a wall, a floor or a
+/// corridor does not tell is not made up.
 ///
 /// @param surfels of the map, any order that depends on the map alone; those outside the view cost
 /// little and change nothing.

@@ -11,6 +11,8 @@
 namespace geomap::perception {
 namespace {
 
+constexpr double kGuessShare = 0.25;  // of the noise factor, for a prior that is only a guess
+
 bool is_share(double value) { return value >= 0.0 && value <= 1.0; }
 
 // What the camera sees up to its farthest surface, grown by what the prior may be off: moved back
@@ -60,8 +62,11 @@ RegistrationResult IcpRegistration::align(const FrameView& view, const VoxelMap&
   SurfelSelection selection =
       map.surfels_in(frustum_of(view, T_world_camera_prior, config_.margin));
   result.blocks_visited = selection.blocks_visited;
-  result.alignment = perception::align(std::move(selection.surfels), view.surfaces,
-                                       T_world_camera_prior, config_.icp);
+  // Where the prior is a guess, what the view tells weakly is still the better of the two.
+  FrustumIcpConfig icp = config_.icp;
+  if (source == PriorSource::kGuessed) icp.noise_factor *= kGuessShare;
+  result.alignment =
+      perception::align(std::move(selection.surfels), view.surfaces, T_world_camera_prior, icp);
   result.reason = judge(result, source);
   result.accepted = result.reason == RegistrationReason::kAligned;
   if (result.accepted) result.T_world_camera = result.alignment->T_world_camera;

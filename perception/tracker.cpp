@@ -75,7 +75,7 @@ Tracked Tracker::track(std::int64_t utime, const Image& image) {
     return {TrackStatus::kRejected, "invalid_image", {}, {}};
   }
   RegistrationResult result = register_view(*view, *start);
-  if (!result.accepted) return reject(*start, std::move(result));
+  if (!result.accepted) return reject(utime, *start, std::move(result));
   return take(utime, prior, std::move(*view), std::move(result));
 }
 
@@ -139,7 +139,7 @@ RegistrationResult Tracker::relocalise(const FrameView& view, const Start& start
   return best;
 }
 
-Tracked Tracker::reject(const Start& start, RegistrationResult result) {
+Tracked Tracker::reject(std::int64_t utime, const Start& start, RegistrationResult result) {
   // A blind camera on sound odometry is not lost.
   const bool blind = result.reason == RegistrationReason::kTooFewReadings;
   if (!(blind && start.source == PriorSource::kMeasured)) ++rejections_;
@@ -152,7 +152,13 @@ Tracked Tracker::reject(const Start& start, RegistrationResult result) {
                   lost_ && !lose ? "lost" : std::string(to_string(result.reason)),
                   {},
                   std::move(result)};
-  if (!lost_ && tracked.registration->reason != RegistrationReason::kInvalidPrior) {
+  if (lost_) return tracked;
+  const RegistrationResult& found = *tracked.registration;
+  if (found.reason == RegistrationReason::kUnderconstrained && found.alignment) {
+    // Constant velocity in the open directions will do for a while, but not for the map.
+    tracked.T_world_camera = orthonormal(found.alignment->T_world_camera);
+    note_pose(utime, *tracked.T_world_camera);
+  } else if (found.reason != RegistrationReason::kInvalidPrior) {
     tracked.T_world_camera = start.T_world_camera;
   }
   return tracked;

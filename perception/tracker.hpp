@@ -129,7 +129,7 @@ class Tracker {
   Eigen::Isometry3d continued_motion(std::int64_t utime) const;
   RegistrationResult register_view(const FrameView& view, const Start& start) const;
   RegistrationResult relocalise(const FrameView& view, const Start& start) const;
-  Tracked reject(const Start& start, RegistrationResult result);
+  Tracked reject(std::int64_t utime, const Start& start, RegistrationResult result);
   Tracked take(std::int64_t utime, const Prior& prior, FrameView view, RegistrationResult result);
   void insert(std::int64_t utime, FrameView view, const Eigen::Isometry3d& T_world_camera);
   void improve_depth_correction();

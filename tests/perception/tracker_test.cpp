@@ -169,6 +169,23 @@ TEST(Tracker, ABlindCameraOnOdometryIsNotLost) {
   EXPECT_EQ(drive.tracker().counts().lost, 0);
 }
 
+TEST(Tracker, AViewThatLeavesADirectionOpenIsFollowedForAWhileWithoutEnteringTheMap) {
+  TrackerConfig config;
+  config.registration.lost_after = 5;
+  geometry::RgbdFrame wall = frame_at(truth(0), kStart);
+  std::fill(wall.depth.millimetres.begin(), wall.depth.millimetres.end(), std::uint16_t{2000});
+  Drive before_a_wall(config);
+  ASSERT_EQ(before_a_wall.see(0, wall, truth(0)).status, TrackStatus::kKeyframe);
+  for (int i = 1; i < 10; ++i) {
+    const Tracked tracked = before_a_wall.see(i, wall);
+    EXPECT_EQ(tracked.status, i < 5 ? TrackStatus::kRejected : TrackStatus::kLost) << i;
+    if (i >= 5) continue;
+    EXPECT_EQ(tracked.reason, "underconstrained");
+    expect_near(*tracked.T_world_camera, truth(0), 0.002, 0.002);
+  }
+  EXPECT_EQ(before_a_wall.tracker().point_map().keyframes(), 1u);
+}
+
 TEST(Tracker, ALostCameraIsFoundWhenItSeesTheMapAgain) {
   TrackerConfig config;
   config.registration.lost_after = 5;
