@@ -27,7 +27,8 @@ struct ReplayResult {
 
 /// @brief The whole pipeline in this process, from a log, as fast as it goes. Writes map.lcmlog
 /// (the exact state), map.svg, point_map.ply, trajectory.tum (key frames), trajectory_all.tum
-/// (tracked frames), reference.tum (where the log holds TRUTH_POSE), report.json, report.md, config_used.yaml, and pictures/ where asked for.
+/// (tracked frames), reference.tum (where the log holds TRUTH_POSE), report.json, report.md,
+/// config_used.yaml, and pictures/ where asked for.
 /// @throws std::runtime_error when the log cannot be read, a file cannot be written, no frame was
 /// in the log, or two passes differ; messaging::ConfigError for a bad configuration.
 ReplayResult replay(const ReplayOptions& options, const messaging::Config& config);

@@ -262,6 +262,18 @@ TEST(Tracker, SurvivesPosesAndImagesThatMakeNoSense) {
   expect_near(*good.T_world_camera, truth(19), 0.02, 0.01);
 }
 
+TEST(Tracker, APoseTenSecondsLateIsCountedAndSurvived) {
+  Drive drive;
+  for (int i = 0; i < 10; ++i) drive.see(i, truth(i));
+  drive.tracker().prior().add_pose(kStart - 10'000'000, truth(0) * mount().inverse());
+  for (int i = 10; i < 20; ++i) {
+    const Tracked tracked = drive.see(i, truth(i));
+    ASSERT_TRUE(tracked.T_world_camera) << tracked.reason;
+    expect_near(*tracked.T_world_camera, truth(i), 0.015, 0.01);
+  }
+  EXPECT_GE(drive.tracker().prior().pose_counts().restarts, 1);
+}
+
 TEST(Tracker, TimeThatGoesBackIsCountedAndSurvived) {
   Drive drive;
   for (int i = 0; i < 10; ++i) drive.see(i, truth(i));
