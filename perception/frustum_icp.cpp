@@ -40,9 +40,7 @@ class Aligner {
   Alignment run(const Eigen::Isometry3d& prior) {
     Alignment result;
     result.T_world_camera = prior;
-    start_ = prior;
-    start_.linear() = Eigen::Quaterniond(prior.linear()).normalized().toRotationMatrix();
-    T_ = start_;
+    T_ = start_ = orthonormal(prior);
     if (!approach(result)) return result;
     keep_in_view();
     // Which directions are observed, and the noise of the normals, show only once the view is
@@ -137,21 +135,14 @@ class Aligner {
       const double w = registration_weight(p.z(), e);
       sums.add(w, e, arm, surfel.normal);
       if (normals != nullptr) normals->push_back(2.0 * (1.0 - cosine));
-      if (overlap != nullptr) overlap->mark(pixel_u(p), pixel_v(p));
+      if (overlap != nullptr) overlap->mark(*pixel);
     }
     return sums;
-  }
-  int pixel_u(const Eigen::Vector3d& p) const {
-    return static_cast<int>(view_.camera().fx * p.x() / p.z() + view_.camera().cx + 0.5);
-  }
-  int pixel_v(const Eigen::Vector3d& p) const {
-    return static_cast<int>(view_.camera().fy * p.y() / p.z() + view_.camera().cy + 0.5);
   }
 
   // Eigenvalues [1/m²] of the information with rotations as lengths, ascending.
   static Eigen::SelfAdjointEigenSolver<Matrix6> decompose(const IcpSums& sums) {
-    Vector6 scale = Vector6::Ones();
-    scale.tail<3>().setConstant(1.0 / sums.radius());
+    const Vector6 scale = scale_of(sums.radius());
     return Eigen::SelfAdjointEigenSolver<Matrix6>(scale.asDiagonal() * sums.matrix() *
                                                   scale.asDiagonal());
   }
@@ -186,7 +177,7 @@ class Aligner {
     last_step_ = last_angle_ = 0.0;
     if (observed_ == 0) return;
     const Eigen::Matrix<double, 6, Eigen::Dynamic> basis =
-        scale().asDiagonal() * directions_.leftCols(observed_);
+        scale_of(radius_).asDiagonal() * directions_.leftCols(observed_);
     Eigen::MatrixXd information = basis.transpose() * sums.matrix() * basis;
     information.diagonal().array() += damping;
     const Eigen::VectorXd vector = basis.transpose() * Vector6(sums.vector.data());
@@ -207,15 +198,15 @@ class Aligner {
     Vector6 twist;
     twist << T_.translation() - start_.translation(), turn.angle() * turn.axis();
     const auto observed = directions_.leftCols(observed_);
-    const Vector6 lengths = scale().cwiseInverse().asDiagonal() * twist;
-    twist = scale().asDiagonal() * (observed * (observed.transpose() * lengths)).eval();
+    const Vector6 lengths = scale_of(radius_).cwiseInverse().asDiagonal() * twist;
+    twist = scale_of(radius_).asDiagonal() * (observed * (observed.transpose() * lengths)).eval();
     T_.linear() = turned(start_, twist.tail<3>());
     T_.translation() = start_.translation() + twist.head<3>();
   }
 
-  Vector6 scale() const {  // from lengths to a twist
+  static Vector6 scale_of(double radius) {  // from lengths to a twist
     Vector6 scale = Vector6::Ones();
-    scale.tail<3>().setConstant(1.0 / radius_);
+    scale.tail<3>().setConstant(1.0 / radius);
     return scale;
   }
   static Eigen::Matrix3d turned(const Eigen::Isometry3d& T, const Eigen::Vector3d& rotation) {

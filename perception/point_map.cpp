@@ -40,14 +40,14 @@ FrameView PointMap::view_of_thin(const geometry::RgbdFrame& thin) const {
   return {thin, std::move(better), std::move(surfaces)};
 }
 
-void PointMap::insert(std::int64_t keyframe, FrameView view,
+void PointMap::insert(std::int64_t keyframe, const FrameView& view,
                       const Eigen::Isometry3d& T_world_camera) {
   if (kept_.contains(keyframe)) {
     throw std::invalid_argument("point map: key frame " + std::to_string(keyframe) +
                                 " is in the map already");
   }
   voxels_.insert(view.corrected, T_world_camera, &view.surfaces);
-  kept_.emplace(keyframe, Kept{std::move(view.thin), T_world_camera});
+  kept_.emplace(keyframe, Kept{view.thin, T_world_camera});
 }
 
 bool PointMap::remove(std::int64_t keyframe) {

@@ -52,7 +52,8 @@ class PointMap {
   /// @brief Adds a view of now. @param keyframe its id, the frame's utime [us].
   /// @throws std::invalid_argument for an id that is in the map, and as VoxelMap::insert(); the map
   /// is then as before.
-  void insert(std::int64_t keyframe, FrameView view, const Eigen::Isometry3d& T_world_camera);
+  void insert(std::int64_t keyframe, const FrameView& view,
+              const Eigen::Isometry3d& T_world_camera);
   void insert(std::int64_t keyframe, const geometry::RgbdFrame& frame,
               const Eigen::Isometry3d& T_world_camera) {
     insert(keyframe, view(frame), T_world_camera);

@@ -13,6 +13,12 @@ bool is_rigid(const Eigen::Isometry3d& T) {
          R.determinant() > 0.0;
 }
 
+Eigen::Isometry3d orthonormal(const Eigen::Isometry3d& T) {
+  Eigen::Isometry3d result = T;
+  result.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
+  return result;
+}
+
 double angle_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear()));
 }

@@ -9,6 +9,9 @@ namespace geomap::perception {
 /// 1e-6, determinant +1).
 bool is_rigid(const Eigen::Isometry3d& T);
 
+/// @brief The same pose with its rotation made orthonormal again, as products of many poses need.
+Eigen::Isometry3d orthonormal(const Eigen::Isometry3d& T);
+
 /// @brief Angle of the rotation that takes `a` to `b`, 0 to pi [rad].
 double angle_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b);
 

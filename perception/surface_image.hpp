@@ -60,6 +60,10 @@ class SurfaceImage {
     const SurfacePixel& pixel = at(static_cast<int>(u), static_cast<int>(v));
     return pixel.valid() ? &pixel : nullptr;
   }
+  /// @brief Number of one of this image's pixels, row by row.
+  int index_of(const SurfacePixel& pixel) const {
+    return static_cast<int>(&pixel - pixels_.data());
+  }
   int size() const { return valid_; }            // pixels with a surface
   double farthest() const { return farthest_; }  // largest depth with a surface [m]
 

@@ -17,11 +17,6 @@ constexpr double kLongestGuess = 0.5;  // constant velocity is continued for thi
 constexpr std::array<std::size_t, 3> kBefore = {1, 2, 4};
 constexpr std::size_t kLeastKeyframes = 3;  // before a depth correction is estimated
 
-Eigen::Isometry3d orthonormal(Eigen::Isometry3d T) {
-  T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
-  return T;
-}
-
 std::unique_ptr<Registration> make_registration(const RegistrationConfig& config) {
   const auto errors = config.validate();
   if (!errors.empty()) throw std::invalid_argument("registration: " + errors.front());
@@ -125,7 +120,8 @@ RegistrationResult Tracker::relocalise(const FrameView& view, const Start& start
   for (const Eigen::Isometry3d& T : starts) {
     RegistrationResult result =
         registration_->align(view, point_map_.voxels(), T, PriorSource::kGuessed);
-    if (result.accepted && result.alignment->overlap < config_.registration.found_overlap) {
+    if (result.alignment && result.accepted &&
+        result.alignment->overlap < config_.registration.found_overlap) {
       result.accepted = false;
       result.reason = RegistrationReason::kOverlapTooSmall;
     }
@@ -190,10 +186,9 @@ Tracked Tracker::take(std::int64_t utime, const Prior& prior, FrameView view,
 }
 
 void Tracker::insert(std::int64_t utime, FrameView view, const Eigen::Isometry3d& T_world_camera) {
-  SurfaceImage surfaces = view.surfaces;
-  point_map_.insert(utime, std::move(view), T_world_camera);
+  point_map_.insert(utime, view, T_world_camera);
   keyframes_.push_back({utime, T_world_camera});
-  surfaces_.push_front({utime, T_world_camera, std::move(surfaces)});
+  surfaces_.push_front({utime, T_world_camera, std::move(view.surfaces)});
   if (surfaces_.size() > kBefore.back() + 1) surfaces_.pop_back();
   if (aligns() && config_.depth_correction.enabled) improve_depth_correction();
 }

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,7 +53,7 @@ struct TrackerConfig {
 enum class TrackStatus {
   kKeyframe,  // registered and in the point map
   kTracked,   // its pose is known; it is too near the last key frame to add anything
-  kRejected,  // registration refused it; its pose is the prior's
+  kRejected,  // registration refused it; its pose is the prior's, mended as far as the view tells
   kLost,      // the camera is lost; it was looked for and not found
   kNoPrior,   // nothing is known of its pose, and nothing to align it to
   kNoImage,   // the image could not be had

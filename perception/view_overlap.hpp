@@ -13,14 +13,19 @@ namespace geomap::perception {
 class ViewOverlap {
  public:
   explicit ViewOverlap(const SurfaceImage& view)
-      : columns_((view.width() + kPatch - 1) / kPatch),
+      : view_(view),
+        columns_((view.width() + kPatch - 1) / kPatch),
         surfaces_(static_cast<std::size_t>(columns_ * ((view.height() + kPatch - 1) / kPatch)), 0),
         found_(surfaces_.size(), 0) {
     for (int v = 0; v < view.height(); ++v) {
       for (int u = 0; u < view.width(); ++u) surfaces_[patch(u, v)] += view.at(u, v).valid();
     }
   }
-  void mark(int u, int v) { found_[patch(u, v)] = 1; }
+  /// @param pixel of the view, whose surface lies on the map.
+  void mark(const SurfacePixel& pixel) {
+    const int index = view_.index_of(pixel);
+    found_[patch(index % view_.width(), index / view_.width())] = 1;
+  }
   /// @brief Of the view's surfaces, 0 to 1.
   double share() const {
     int all = 0, found = 0;
@@ -37,6 +42,7 @@ class ViewOverlap {
   std::size_t patch(int u, int v) const {
     return static_cast<std::size_t>(v / kPatch * columns_ + u / kPatch);
   }
+  const SurfaceImage& view_;
   int columns_;
   std::vector<int> surfaces_;
   std::vector<char> found_;

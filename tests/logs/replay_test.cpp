@@ -14,6 +14,7 @@
 #include "mapping/map_journal.hpp"
 #include "messaging/channels.hpp"
 #include "messaging/config_checks.hpp"
+#include "messaging/convert_frame.hpp"
 #include "messaging/convert_geometry.hpp"
 #include "messaging/encode.hpp"
 #include "messaging/safe_decode.hpp"
@@ -163,6 +164,39 @@ TEST_F(Replay, TheDerivedLogHoldsEveryPoseAndEveryKeyframe) {
   EXPECT_EQ(count[messaging::channels::kKeyframe], keyframes);
   EXPECT_EQ(count[messaging::channels::kOdomToWorld], keyframes);
   EXPECT_EQ(count[messaging::channels::kPlanes], keyframes);
+}
+
+TEST_F(Replay, ARejectedKeyframeSaysWhyAndCarriesNoImages) {
+  auto events = testing::synthetic_log(20);
+  for (messaging::LogEvent& event : events) {
+    if (event.channel != "RGBD_FRAME") continue;
+    const auto message =
+        messaging::safe_decode<geomap::rgbd_frame_t>(event.data.data(), event.data.size());
+    if (message.message->sequence < 10) continue;
+    auto frame = *messaging::to_frame(*message.message).frame;
+    std::fill(frame.depth.millimetres.begin(), frame.depth.millimetres.end(),
+              geometry::DepthImage::kNoReading);
+    std::fill_n(frame.depth.millimetres.begin(), 100, std::uint16_t{1500});
+    event.data = messaging::encode(messaging::to_message(frame));
+  }
+  ReplayOptions options;
+  options.log_out = path("derived.lcmlog");
+  const ReplayResult result = replay_events(events, options);
+  std::int64_t rejected = 0;
+  messaging::LogReader reader(options.log_out);
+  while (const auto event = reader.next()) {
+    if (event->channel != messaging::channels::kKeyframe) continue;
+    const auto keyframe =
+        messaging::safe_decode<geomap::keyframe_t>(event->data.data(), event->data.size());
+    ASSERT_TRUE(keyframe.message);
+    if (keyframe.message->status == geomap::keyframe_t::ACCEPTED) continue;
+    ++rejected;
+    EXPECT_EQ(keyframe.message->status, geomap::keyframe_t::TOO_FEW_POINTS);
+    EXPECT_EQ(keyframe.message->frame.depth.size, 0);
+    EXPECT_EQ(keyframe.message->frame.color.size, 0);
+  }
+  EXPECT_GT(rejected, 0);
+  EXPECT_EQ(result.report.rejected.at("too_few_readings"), rejected);
 }
 
 TEST_F(Replay, LogsOfOtherLcmCameraDriversAreMappedWithTheCameraOfTheSettings) {

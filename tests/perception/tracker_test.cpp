@@ -293,6 +293,20 @@ TEST(Tracker, ARemovedKeyframeIsGoneFromTheMapAndFromTheSearch) {
   EXPECT_TRUE(drive.see(13, truth(13)).T_world_camera);
 }
 
+TEST(Tracker, ALostCameraWhoseMapWasTakenAwayBeginsAnew) {
+  TrackerConfig config;
+  config.registration.lost_after = 2;
+  Drive drive(config);
+  drive.see(0, truth(0));
+  for (int i = 1; i < 6; ++i) drive.see(i, blind_frame());
+  ASSERT_TRUE(drive.tracker().is_lost());
+  ASSERT_TRUE(drive.tracker().remove(kStart));
+  ASSERT_EQ(drive.tracker().point_map().keyframes(), 0u);
+  drive.see(20, truth(20));
+  EXPECT_FALSE(drive.tracker().is_lost());
+  EXPECT_EQ(drive.tracker().point_map().keyframes(), 1u);
+}
+
 TEST(Tracker, TheMethodPriorTakesPosesAsTheyCome) {
   TrackerConfig config;
   config.registration.method = "prior";
