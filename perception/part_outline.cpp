@@ -16,7 +16,10 @@ constexpr int kSide = DepthCells::kSide;
 constexpr double kBorderSpacing = 0.015;  // of border points, where pixels are closer [m]
 constexpr double kInnerSpacing = 0.55;    // of points inside, over alpha
 constexpr double kHullPixels = 6.0;       // least alpha: this many pixel lengths
-constexpr int kWidestGap = 24;            // looked across at a border [pixel]
+// Pixels up to so far off, of which so many are the plane's: as at a right angle.
+constexpr int kSolidReach = 2;
+constexpr int kSolidPixels = 9;
+constexpr int kWidestGap = 24;  // looked across at a border [pixel]
 
 // Collects the points of one part.
 class Sampler {
@@ -41,7 +44,8 @@ class Sampler {
       if (!meets(camera_, plane_, center)) continue;
       const Eigen::Vector2d at = on_plane(center);
       const double length = pixel_length(camera_, plane_, center);
-      if (taken.insert(grid_key(at)).second) add(at, length);
+      const Eigen::Vector2i middle = (cell->box.min() + cell->box.max()) / 2;
+      if (is_solid(middle.x(), middle.y()) && taken.insert(grid_key(at)).second) add(at, length);
       if (!is_inner(cell->box)) sample_border(cell->box, length);
     }
   }
@@ -53,6 +57,16 @@ class Sampler {
   bool is_own(int u, int v) const {
     return u >= 0 && v >= 0 && u < image_.width && v < height_ &&
            image_.label[static_cast<std::size_t>(v * image_.width + u)] == index_;
+  }
+
+  // A pixel that sticks out is no border: where a plane is seen at a flat angle, a single one that
+  // belongs to the wall behind reaches far.
+  bool is_solid(int u, int v) const {
+    int own = 0;
+    for (int j = -kSolidReach; j <= kSolidReach; ++j) {
+      for (int i = -kSolidReach; i <= kSolidReach; ++i) own += is_own(u + i, v + j) ? 1 : 0;
+    }
+    return own >= kSolidPixels;
   }
 
   // A whole cell whose every neighbouring pixel is the plane's has no border.
@@ -72,7 +86,7 @@ class Sampler {
     const int across = std::clamp(static_cast<int>(0.5 * alpha_ / length), 2, kWidestGap);
     for (int v = box.min().y(); v <= box.max().y(); ++v) {
       for (int u = box.min().x(); u <= box.max().x(); ++u) {
-        if (!is_own(u, v)) continue;
+        if (!is_own(u, v) || !is_solid(u, v)) continue;
         for (const int side : {-1, 1}) {
           if (v % along == 0 && is_open(u, v, side, 0, across)) add_border({u + 0.5 * side, v});
           if (u % along == 0 && is_open(u, v, 0, side, across)) add_border({u, v + 0.5 * side});

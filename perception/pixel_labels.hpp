@@ -35,10 +35,19 @@ class PixelLabeler {
 
  private:
   struct Candidate;
+  struct Neighbourhood;
   int candidates_at(int column, int row, const std::vector<geometry::Plane>& planes,
                     const std::vector<std::int16_t>& cell_label, Candidate* candidates) const;
+  bool is_on(const geometry::Plane& plane, std::size_t cell) const;
+  Candidate candidate_of(const geometry::Plane& plane, std::int16_t label, bool is_own, int column,
+                         int row) const;
   void label_cell(int column, int row, const Candidate* candidates, int count, int row_step,
                   std::vector<std::int16_t>& labels) const;
+  void settle_cell(int column, int row, const Candidate* candidates, int count,
+                   std::vector<std::int16_t>& labels) const;
+  Neighbourhood neighbourhood(int column, int row, const Candidate* candidates, int count) const;
+  float misfit(const Candidate& plane, int u, int v) const;
+  static float inverse_depth(const Candidate& plane, int u, int v);  // [1/m]
 
   const geometry::RgbdFrame& frame_;
   const DepthCells& cells_;
