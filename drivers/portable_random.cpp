@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
+
+#include "drivers/portable_math.hpp"
 
 namespace geomap::drivers {
 namespace {
@@ -58,19 +58,6 @@ constexpr Coefficients kF = {1.0,
                              2.04426310338993978564e-15};
 
 }  // namespace
-
-double portable_log(double x) {
-  // x = m 2^e with m in [√½, √2), and log m = 2 atanh s with s = (m - 1) / (m + 1), |s| < 0.172.
-  constexpr auto kBitsOfRootOfHalf = std::bit_cast<std::int64_t>(std::numbers::sqrt2 / 2.0);
-  const auto bits = std::bit_cast<std::int64_t>(x);
-  const std::int64_t e = (bits - kBitsOfRootOfHalf) >> 52;
-  const auto m = std::bit_cast<double>(bits - e * (std::int64_t{1} << 52));
-  const double s = (m - 1.0) / (m + 1.0);
-  const double s2 = s * s;
-  double series = 1.0 / 21.0;  // the next term is below 1e-18
-  for (int n = 19; n > 0; n -= 2) series = series * s2 + 1.0 / n;
-  return static_cast<double>(e) * std::numbers::ln2 + 2.0 * s * series;
-}
 
 double normal_quantile(double p) {
   const double q = p - 0.5;

@@ -37,7 +37,4 @@ class PortableRandom {
 /// Applied Statistics 37 (1988).
 double normal_quantile(double p);
 
-/// @brief Natural logarithm of a positive, normal number, to about 16 digits.
-double portable_log(double x);
-
 }  // namespace geomap::drivers

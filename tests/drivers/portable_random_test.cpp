@@ -50,13 +50,6 @@ TEST(PortableRandom, TheQuantileIsOdd) {
   EXPECT_EQ(normal_quantile(0.5), 0.0);
 }
 
-TEST(PortableRandom, TheLogarithmIsTheLibrarysToTheLastDigits) {
-  for (double x = 1e-300; x < 1e300; x *= 1.37) {
-    EXPECT_NEAR(portable_log(x), std::log(x), 4e-16 * std::abs(std::log(x))) << x;
-  }
-  EXPECT_EQ(portable_log(1.0), 0.0);
-}
-
 TEST(PortableRandom, NormalHasTheMomentsOfTheNormalDistribution) {
   PortableRandom random(7);
   constexpr int kDraws = 4000000;
