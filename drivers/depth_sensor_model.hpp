@@ -31,7 +31,7 @@ struct DepthSensorConfig {
   double focal_times_baseline = 43.9;  // disparity times depth [pixel m]
   double baseline = 0.075;             // from camera to projector, along the camera's x [m]
   double bias_at_corner = 0.01;        // share of the depth at the image's farthest corner
-  double grazing_cosine = 0.15;        // incidence at which no pattern is found any more
+  double grazing_cosine = 0.1;         // incidence at which no pattern is found any more
   geometry::DepthNoise axial;          // along the optical axis
 
   std::vector<std::string> validate() const;
