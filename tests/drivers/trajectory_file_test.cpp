@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "drivers/trajectory_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "drivers/data_set_writer.hpp"
+#include "drivers/frame_source.hpp"
+#include "geometry/angles.hpp"
+
+namespace geomap::drivers {
+namespace {
+
+namespace fs = std::filesystem;
+using geometry::radians;
+
+class TrajectoryFile : public ::testing::Test {
+ protected:
+  RobotTrajectory read(const std::string& text) {
+    testing::write_text(file_, text);
+    return read_robot_trajectory(file_);
+  }
+
+  // What the error says after the file's name.
+  std::string complaint(const std::string& text) {
+    try {
+      read(text);
+    } catch (const SourceError& error) {
+      const std::string what = error.what();
+      EXPECT_TRUE(what.starts_with(file_.string() + ":")) << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+      return what.substr(file_.string().size() + 1);
+    }
+    return "no error";
+  }
+
+  testing::TemporaryFolder folder_;
+  const fs::path file_ = folder_ / "way.yaml";
+};
+
+TEST_F(TrajectoryFile, HoldsTheCameraAndTheWayPoints) {
+  const RobotTrajectory way = read(
+      "name: there and back\ncamera_height: 1.5\ncamera_forward: -0.2\nwaypoints:\n"
+      "  - {t: 0.5, x: 1, y: -2, yaw_deg: 30, pan_deg: -20, tilt_deg: 10}\n");
+  EXPECT_EQ(way.name, "there and back");
+  EXPECT_EQ(way.camera_height, 1.5);
+  EXPECT_EQ(way.camera_forward, -0.2);
+  ASSERT_EQ(way.waypoints.size(), 1U);
+  const Waypoint& point = way.waypoints.front();
+  EXPECT_EQ(point.time, 0.5);
+  EXPECT_EQ(point.x, 1.0);
+  EXPECT_EQ(point.y, -2.0);
+  EXPECT_EQ(point.yaw, radians(30.0));
+  EXPECT_EQ(point.pan, radians(-20.0));
+  EXPECT_EQ(point.tilt, radians(10.0));
+}
+
+TEST_F(TrajectoryFile, WhatIsNotGivenStaysAsItWas) {
+  const RobotTrajectory way = read("waypoints: [{t: 0, y: 2}, {t: 1, yaw_deg: 400}, {t: 2, x: 1}]");
+  EXPECT_EQ(way.name, "way");
+  EXPECT_EQ(way.camera_height, RobotTrajectory{}.camera_height);
+  const Waypoint& last = way.waypoints.back();
+  EXPECT_EQ(last.x, 1.0);
+  EXPECT_EQ(last.y, 2.0);
+  EXPECT_EQ(last.yaw, radians(400.0));
+  EXPECT_EQ(last.tilt, 0.0);
+}
+
+TEST_F(TrajectoryFile, ErrorsNameTheFileTheLineAndTheFault) {
+  const std::string head = "camera_height: 1.2\nwaypoints:\n  - {t: 0, x: 1}\n";
+  EXPECT_EQ(complaint(head + "  - {t: 1, yaw: 20}\n"),
+            "4: unknown key 'yaw'; known are pan_deg, t, tilt_deg, x, y, yaw_deg");
+  EXPECT_EQ(
+      complaint("camera_hight: 1\n" + head),
+      "1: unknown key 'camera_hight'; known are camera_forward, camera_height, name, waypoints");
+  EXPECT_EQ(complaint(head + "  - {x: 1}\n"), "4: a way point needs t");
+  EXPECT_EQ(complaint(head + "  - {t: 0, x: 1}\n"),
+            "4: t must be more than that of the way point before");
+  EXPECT_EQ(complaint("waypoints:\n  - {t: -1}\n"), "2: t must be 0 or more");
+  EXPECT_EQ(complaint(head + "  - {t: 1, x: 1, x: 2}\n"), "4: 'x' is given twice");
+  EXPECT_EQ(complaint(head + "  - {t: 1, x: far}\n"), "4: 'far' is not a finite number");
+  EXPECT_EQ(complaint(head + "  - {t: .inf}\n"), "4: '.inf' is not a finite number");
+  EXPECT_EQ(complaint(head + "  - {t: nan}\n"), "4: 'nan' is not a finite number");
+  EXPECT_EQ(complaint(head + "  - {t: 1, x: [2]}\n"), "4: a single value is wanted");
+  EXPECT_EQ(complaint(head + "  - 7\n"), "4: a way point holds no KEY: VALUE");
+  EXPECT_EQ(complaint("waypoints: {t: 0}\n"), "1: waypoints must be a list");
+  EXPECT_EQ(complaint("name: nowhere\n"), "1: no way points");
+  EXPECT_EQ(complaint(""), "1: the file holds no KEY: VALUE");
+  EXPECT_THAT(complaint("name: x\nwaypoints: [{t: 0\n"), ::testing::HasSubstr(": not YAML: "));
+}
+
+TEST_F(TrajectoryFile, AFileThatIsMissingIsNamed) {
+  EXPECT_THROW(read_robot_trajectory(folder_ / "none.yaml"), SourceError);
+}
+
+std::vector<fs::path> shipped_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(GEOMAP_SOURCE_DIR "/config/trajectories")) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+struct Speed {
+  double metres = 0.0;   // of the base [1/s]
+  double degrees = 0.0;  // of the camera's direction [1/s]
+};
+
+Speed greatest_speed(const CameraTrajectory& trajectory) {
+  constexpr double kStep = 0.01;  // [s]
+  Speed greatest;
+  for (double t = 0.0; t < trajectory.duration(); t += kStep) {
+    const RobotPose before = trajectory.at(t);
+    const RobotPose after = trajectory.at(t + kStep);
+    const Eigen::Isometry3d moved = before.T_world_body.inverse() * after.T_world_body;
+    const Eigen::Isometry3d turned = (before.T_world_body * before.T_body_camera).inverse() *
+                                     (after.T_world_body * after.T_body_camera);
+    const double angle = Eigen::AngleAxisd(turned.linear()).angle();
+    greatest.metres = std::max(greatest.metres, moved.translation().norm() / kStep);
+    greatest.degrees = std::max(greatest.degrees, geometry::degrees(angle) / kStep);
+  }
+  return greatest;
+}
+
+TEST(ShippedTrajectories, LoadUnderTheirNamesAndAreNoFasterThanARobot) {
+  ASSERT_GE(shipped_files().size(), 2U);
+  for (const fs::path& file : shipped_files()) {
+    const CameraTrajectory trajectory(read_robot_trajectory(file));
+    EXPECT_EQ(trajectory.name() + ".yaml", file.filename()) << file;
+    const Speed speed = greatest_speed(trajectory);
+    EXPECT_LE(speed.metres, 0.6) << file;
+    EXPECT_LE(speed.degrees, 60.0) << file;
+  }
+}
+
+TEST(ShippedTrajectories, TheSweepIsSlowAndTheTurnIsAWholeOne) {
+  const fs::path folder = GEOMAP_SOURCE_DIR "/config/trajectories";
+  const Speed sweep =
+      greatest_speed(CameraTrajectory(read_robot_trajectory(folder / "sweep.yaml")));
+  EXPECT_LE(sweep.metres, 0.3);
+  EXPECT_LE(sweep.degrees, 25.0);
+  const CameraTrajectory turn(read_robot_trajectory(folder / "turn360.yaml"));
+  EXPECT_EQ(turn.duration(), 90.0);
+  EXPECT_EQ(turn.waypoint_at(90.0).yaw - turn.waypoint_at(0.0).yaw, radians(360.0));
+  EXPECT_EQ(greatest_speed(turn).metres, 0.0);
+}
+
+}  // namespace
+}  // namespace geomap::drivers
