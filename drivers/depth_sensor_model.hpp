@@ -81,6 +81,7 @@ class DepthSensorModel {
 
   geometry::CameraModel camera_;
   DepthSensorConfig config_;
+  std::vector<int> jitter_;             // equally likely offsets of a pixel's line of sight [pixel]
   double bias_per_square_pixel_ = 0.0;  // share of the depth
 };
 

@@ -229,7 +229,7 @@ TEST(DepthSensorModel, TheBytesAreThoseOfEveryOtherMachine) {
     exact.cosine[i] = 1.0F - static_cast<float>(i) / 32768.0F;
   }
   EXPECT_EQ(checksum(read(white(0.02), exact, 9)), 15608103092101072753ULL);
-  EXPECT_EQ(checksum(read(kinect(), exact, 9)), 11052552222158593843ULL);
+  EXPECT_EQ(checksum(read(kinect(), exact, 9)), 12778304604648486248ULL);
 }
 
 TEST(DepthSensorModel, WhatCannotBeIsRefused) {
@@ -244,6 +244,7 @@ TEST(DepthSensorModel, WhatCannotBeIsRefused) {
   refused([](auto& config) { config.max_range = 0.5; });
   refused([](auto& config) { config.max_range = 66.0; });
   refused([](auto& config) { config.lateral_sigma = -1.0; });
+  refused([](auto& config) { config.lateral_sigma = 101.0; });
   refused([](auto& config) { config.disparity_step = 0.0; });
   refused([](auto& config) { config.focal_times_baseline = 0.0; });
   refused([](auto& config) { config.baseline = -0.075; });
