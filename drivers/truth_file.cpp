@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMaxCoordinate = 5e4;    // [m]; plane coordinates reach 100 km
+constexpr double kMaxCoordinate = 1e4;    // [m]; coordinates in a plane frame reach ten times as far
 constexpr double kMaxOffPlane = 1e-3;     // [m]
 constexpr double kUnitTolerance = 1e-12;  // a normal this close to length 1 is kept as it is
 
@@ -79,7 +79,7 @@ class TruthReader {
   Eigen::Vector3d point(const YAML::Node& node) const {
     const Eigen::Vector3d p = vector(node);
     if (p.cwiseAbs().maxCoeff() > kMaxCoordinate) {
-      fail(node.Mark(), "a point lies beyond 50 km from the origin");
+      fail(node.Mark(), "a point lies beyond 10 km from the origin");
     }
     return p;
   }

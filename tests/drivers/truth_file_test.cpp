@@ -143,7 +143,7 @@ TEST(TruthFile, EveryFaultIsOneLineThatNamesFileAndLine) {
       {9, "      outer: [[0, 0, 1], [1, 0, 1],\n        [1, 1, 1.0011]]",
        "truth.yaml:10: a vertex lies more than 1 mm off its plane"},
       {9, "      outer: [[0, 0, 1], [1, 0, 1], [60000, 1, 1]]",
-       "truth.yaml:9: a point lies beyond 50 km"},
+       "truth.yaml:9: a point lies beyond 10 km"},
       {10, "", "truth.yaml:9: 'holes' is missing"},
       {11, "", "truth.yaml:2: 'visible' is missing"},
       {11, "    visible: [{outer: [[0, 0, 1]], holes: []}]",
