@@ -2,36 +2,45 @@
 // geomap-eval: how far a result is from a reference.
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "logs/evaluation.hpp"
 #include "messaging/program.hpp"
 
 int main(int argc, char** argv) {
   namespace messaging = geomap::messaging;
   namespace logs = geomap::logs;
-  std::string trajectory;
-  std::string reference;
+  logs::EvaluationOptions options;
   std::string output;
-  double max_difference = 0.02;
   return messaging::run_program(
       argc, argv,
       {.name = "geomap-eval",
-       .description = "Compares a trajectory with a reference: absolute and relative errors.",
+       .description = "Compares a map with true planes or another map (--map with --truth or "
+                      "--against), a trajectory with a reference (--trajectory with --reference), "
+                      "or both.",
        .uses_config = false},
       [&](messaging::OptionParser& parser) {
-        parser.required("--trajectory", trajectory, "estimated poses, a TUM file (geomap-replay)");
-        parser.required("--reference", reference, "true poses, a TUM file");
+        parser.option("--map", options.map.map, "map that is evaluated (map.lcmlog)");
+        parser.option("--truth", options.map.truth,
+                      "true planes: what geomap-sim writes beside its log, or reference planes");
+        parser.option("--against", options.map.against, "another map, taken as true");
+        parser.option(
+            "--report", options.map.report,
+            "report.json of the map's replay, for the reduction of planes; without it the "
+            "one beside the map");
+        parser.option("--trajectory", options.trajectory,
+                      "estimated poses, a TUM file (geomap-replay)");
+        parser.option("--reference", options.reference, "true poses, a TUM file");
         parser.required("-o,--output", output, "folder for the results; made when missing");
-        parser.option("--max-difference", max_difference,
+        parser.option("--max-difference", options.max_difference,
                       "time between poses that are compared, at most [s]");
       },
       [&](const messaging::CommonOptions&) {
-        const logs::TrajectoryEvaluation evaluation =
-            logs::evaluate_trajectory(trajectory, reference, max_difference);
+        if (const std::string fault = logs::usage_fault(options); !fault.empty()) {
+          throw messaging::ConfigError(fault);
+        }
+        const logs::Evaluation evaluation = logs::evaluate(options);
         logs::write_evaluation(evaluation, output);
-        fmt::print("{}results in {} (open evaluation.md, trajectory.svg)\n",
-                   logs::summary_text(evaluation), output);
+        fmt::print("{}results in {} (open evaluation.md{})\n", logs::summary_text(evaluation),
+                   output, evaluation.trajectory ? ", trajectory.svg" : "");
         return 0;
       });
 }

@@ -1,171 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "logs/evaluation.hpp"
 
-#include <fmt/format.h>
+#include <stdexcept>
 
-#include <nlohmann/json.hpp>
-
-#include "geometry/angles.hpp"
-#include "logs/trajectory_plot.hpp"
-#include "mapping/export_features.hpp"
+#include "logs/evaluation_json.hpp"
+#include "logs/map_evaluation_text.hpp"
 #include "mapping/export_file.hpp"
 
 namespace geomap::logs {
-namespace {
 
-using geometry::degrees;
-using nlohmann::ordered_json;
-
-constexpr const char* kPicture = "trajectory.svg";
-
-std::string name_of(const std::string& file) {
-  return mapping::clean_text(std::filesystem::path(file).filename().string());
-}
-
-/// Radians into degrees.
-ErrorStatistics in_degrees(ErrorStatistics statistics) {
-  for (double* value : {&statistics.rmse, &statistics.mean, &statistics.median, &statistics.max,
-                        &statistics.deviation}) {
-    *value = degrees(*value);
-  }
-  return statistics;
-}
-
-ordered_json to_json(const ErrorStatistics& statistics) {
-  // Zero would read as perfect.
-  const auto number = [&](double value) {
-    return statistics.count > 0 ? ordered_json(value) : ordered_json();
-  };
-  return {{"rmse", number(statistics.rmse)},
-          {"mean", number(statistics.mean)},
-          {"median", number(statistics.median)},
-          {"max", number(statistics.max)},
-          {"std", number(statistics.deviation)}};
-}
-
-ordered_json to_json(const RelativeError& error) {
-  return {{"translation", to_json(error.translation)},
-          {"rotation_deg", to_json(in_degrees(error.rotation))},
-          {"pairs", error.translation.count}};
-}
-
-ordered_json to_json(const TrajectoryEvaluation& evaluation) {
-  const TrajectoryMetrics& metrics = evaluation.metrics;
-  ordered_json json;
-  json["trajectory"] = evaluation.trajectory;
-  json["reference"] = evaluation.reference;
-  json["trajectory_poses"] = evaluation.trajectory_poses;
-  json["reference_poses"] = evaluation.reference_poses;
-  json["max_difference"] = evaluation.max_difference;
-  json["associated"] = metrics.pairs.size();
-  json["ate"] = to_json(metrics.aligned.statistics);
-  json["ate_anchored"] = to_json(metrics.anchored.statistics);
-  json["ate_anchored"]["end_translation"] = metrics.end.translation;
-  json["ate_anchored"]["end_rotation_deg"] = degrees(metrics.end.rotation);
-  json["rpe"] = {{"per_second", to_json(metrics.per_second)},
-                 {"per_metre", to_json(metrics.per_metre)}};
-  return json;
-}
-
-std::string absolute_table(const TrajectoryMetrics& metrics) {
-  std::string text =
-      "| distance from the reference [cm] | rmse | mean | median | max | std |\n"
-      "|---|--:|--:|--:|--:|--:|\n";
-  const auto row = [&](const char* name, const ErrorStatistics& s) {
-    text += fmt::format("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", name, 100 * s.rmse,
-                        100 * s.mean, 100 * s.median, 100 * s.max, 100 * s.deviation);
-  };
-  row("aligned as a whole", metrics.aligned.statistics);
-  row("anchored at the first pose", metrics.anchored.statistics);
-  return text;
-}
-
-std::string relative_table(const TrajectoryMetrics& metrics) {
-  std::string text =
-      "| relative error | pairs | rmse [cm] | median [cm] | max [cm] | rmse [°] | median [°] | max "
-      "[°] |\n|---|--:|--:|--:|--:|--:|--:|--:|\n";
-  const auto row = [&](const char* name, const RelativeError& error) {
-    const ErrorStatistics& t = error.translation;
-    const ErrorStatistics r = in_degrees(error.rotation);
-    if (t.count == 0) {
-      text += fmt::format("| {} | 0 | - | - | - | - | - | - |\n", name);
-      return;
+std::string usage_fault(const EvaluationOptions& options) {
+  const MapEvaluationFiles& map = options.map;
+  if (map.map.empty()) {
+    for (const auto& [name, value] :
+         {std::pair{"--truth", map.truth}, {"--against", map.against}, {"--report", map.report}}) {
+      if (!value.empty()) return std::string(name) + " needs --map";
     }
-    text +=
-        fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {:.3f} | {:.3f} |\n", name,
-                    t.count, 100 * t.rmse, 100 * t.median, 100 * t.max, r.rmse, r.median, r.max);
-  };
-  row("over one second", metrics.per_second);
-  row("over one metre", metrics.per_metre);
-  return text;
+  } else {
+    if (!map.truth.empty() && !map.against.empty()) return "--truth excludes --against";
+    if (map.truth.empty() && map.against.empty()) return "--map needs --truth or --against";
+  }
+  if (options.trajectory.empty() != options.reference.empty()) {
+    return options.trajectory.empty() ? "--reference needs --trajectory"
+                                      : "--trajectory needs --reference";
+  }
+  if (map.map.empty() && options.trajectory.empty()) {
+    return "nothing to evaluate: give --map with --truth or --against, or --trajectory with "
+           "--reference";
+  }
+  return "";
 }
 
-std::string to_markdown(const TrajectoryEvaluation& evaluation) {
-  const TrajectoryMetrics& metrics = evaluation.metrics;
-  return fmt::format(
-      "# Trajectory {} against {}\n\n![Both trajectories from above and from the side, and their "
-      "distance over time]({})\n\n{} of {} poses match one of the reference's {} within {} s.\n\n"
-      "## Absolute error\n\n{}\nAligned: after the rigid motion, without scale, that makes the "
-      "rmse "
-      "least. Anchored: after the one that takes the first pose onto the reference's; the last "
-      "pose "
-      "is then {:.2f} cm and {:.3f}° away.\n\n## Relative error\n\n{}\nBetween poses a second "
-      "apart, "
-      "and between poses a metre of the reference's path apart, as the TUM RGB-D benchmark defines "
-      "it.\n",
-      name_of(evaluation.trajectory), name_of(evaluation.reference), kPicture, metrics.pairs.size(),
-      evaluation.trajectory_poses, evaluation.reference_poses, evaluation.max_difference,
-      absolute_table(metrics), 100 * metrics.end.translation, degrees(metrics.end.rotation),
-      relative_table(metrics));
-}
-
-std::string relative_line(const char* name, const RelativeError& error) {
-  if (error.translation.count == 0) return fmt::format("RPE {}: no such pairs of poses\n", name);
-  return fmt::format("RPE {}: rmse {:.2f} cm and {:.3f}° over {} pairs\n", name,
-                     100 * error.translation.rmse, degrees(error.rotation.rmse),
-                     error.translation.count);
-}
-
-}  // namespace
-
-TrajectoryEvaluation evaluate_trajectory(const std::filesystem::path& trajectory,
-                                         const std::filesystem::path& reference,
-                                         double max_difference) {
-  const Trajectory estimated = read_trajectory(trajectory);
-  const Trajectory truth = read_trajectory(reference);
-  TrajectoryEvaluation evaluation;
-  evaluation.trajectory = trajectory.string();
-  evaluation.reference = reference.string();
-  evaluation.trajectory_poses = estimated.size();
-  evaluation.reference_poses = truth.size();
-  evaluation.max_difference = max_difference;
-  evaluation.metrics = compare_trajectories(estimated, truth, max_difference);
-  evaluation.picture =
-      trajectory_svg(evaluation.metrics, truth,
-                     name_of(evaluation.trajectory) + " against " + name_of(evaluation.reference));
+Evaluation evaluate(const EvaluationOptions& options) {
+  if (const std::string fault = usage_fault(options); !fault.empty()) {
+    throw std::invalid_argument(fault);
+  }
+  Evaluation evaluation;
+  if (!options.map.map.empty()) evaluation.map = evaluate_map_files(options.map);
+  if (!options.trajectory.empty()) {
+    evaluation.trajectory =
+        evaluate_trajectory(options.trajectory, options.reference, options.max_difference);
+  }
   return evaluation;
 }
 
-std::string summary_text(const TrajectoryEvaluation& evaluation) {
-  const TrajectoryMetrics& metrics = evaluation.metrics;
-  const auto ate = [](const char* name, const ErrorStatistics& s) {
-    return fmt::format("ATE {}: rmse {:.2f} cm, median {:.2f} cm, max {:.2f} cm\n", name,
-                       100 * s.rmse, 100 * s.median, 100 * s.max);
-  };
-  return fmt::format("{} of {} poses matched\n", metrics.pairs.size(),
-                     evaluation.trajectory_poses) +
-         ate("aligned", metrics.aligned.statistics) + ate("anchored", metrics.anchored.statistics) +
-         relative_line("per second", metrics.per_second) +
-         relative_line("per metre", metrics.per_metre);
+std::string summary_text(const Evaluation& evaluation) {
+  std::string text;
+  if (evaluation.map) text += summary_text(*evaluation.map);
+  if (evaluation.trajectory) text += summary_text(*evaluation.trajectory);
+  return text;
 }
 
-void write_evaluation(const TrajectoryEvaluation& evaluation, const std::filesystem::path& folder) {
+void write_evaluation(const Evaluation& evaluation, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  mapping::write_file(folder / kPicture, evaluation.picture);
-  mapping::write_file(folder / "evaluation.md", to_markdown(evaluation));
-  mapping::write_file(
-      folder / "evaluation.json",
-      to_json(evaluation).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  std::string report;
+  if (evaluation.map) report += report_text(*evaluation.map);
+  if (evaluation.trajectory) {
+    if (!report.empty()) report += "\n";
+    report += report_text(*evaluation.trajectory);
+    mapping::write_file(folder / kTrajectoryPicture, evaluation.trajectory->picture);
+  }
+  mapping::write_file(folder / "evaluation.md", report);
+  mapping::write_file(folder / "evaluation.json", evaluation_json(evaluation));
 }
 
 }  // namespace geomap::logs

@@ -48,7 +48,7 @@ Trajectory circle() {
   return trajectory;
 }
 
-class Evaluation : public testing::TemporaryFolder {
+class EvaluationFiles : public testing::TemporaryFolder {
  protected:
   TrajectoryEvaluation evaluate(const Trajectory& estimate, const Trajectory& reference) const {
     write_trajectory(path("estimate.tum"), estimate);
@@ -57,12 +57,12 @@ class Evaluation : public testing::TemporaryFolder {
   }
 
   Json written(const TrajectoryEvaluation& evaluation) const {
-    write_evaluation(evaluation, path("new/out"));
+    write_evaluation({{}, evaluation}, path("new/out"));
     return Json::parse(read_file(path("new/out/evaluation.json")));
   }
 };
 
-TEST_F(Evaluation, TheJsonHoldsTheFiguresUnderTheirKeys) {
+TEST_F(EvaluationFiles, TheJsonHoldsTheFiguresUnderTheirKeys) {
   // The last pose is 6 cm too far to its left and turned by 2°.
   Trajectory estimate = circle();
   estimate.back().second.translate(Eigen::Vector3d(0, 0.06, 0));
@@ -95,7 +95,7 @@ TEST_F(Evaluation, TheJsonHoldsTheFiguresUnderTheirKeys) {
   EXPECT_NEAR(json["rpe"]["per_metre"]["translation"]["max"].get<double>(), 0.06, 1e-7);
 }
 
-TEST_F(Evaluation, WhatCouldNotBeMeasuredIsNullNotZero) {
+TEST_F(EvaluationFiles, WhatCouldNotBeMeasuredIsNullNotZero) {
   Trajectory rest = circle();
   for (auto& [utime, T] : rest) T = Eigen::Isometry3d::Identity();
   const TrajectoryEvaluation evaluation = evaluate(rest, rest);
@@ -107,7 +107,7 @@ TEST_F(Evaluation, WhatCouldNotBeMeasuredIsNullNotZero) {
   EXPECT_THAT(summary_text(evaluation), HasSubstr("RPE per metre: no such pairs"));
 }
 
-TEST_F(Evaluation, TheReportShowsThePictureAndTheSameFiles) {
+TEST_F(EvaluationFiles, TheReportShowsThePictureAndTheSameFiles) {
   Trajectory estimate = circle();
   estimate.resize(40);
   const TrajectoryEvaluation evaluation = evaluate(estimate, circle());
@@ -120,7 +120,7 @@ TEST_F(Evaluation, TheReportShowsThePictureAndTheSameFiles) {
   EXPECT_THAT(summary_text(evaluation), HasSubstr("ATE aligned: rmse 0.00 cm"));
 }
 
-TEST_F(Evaluation, ThePictureHoldsBothPathsTwiceAndBothErrors) {
+TEST_F(EvaluationFiles, ThePictureHoldsBothPathsTwiceAndBothErrors) {
   // Moved as a whole: once aligned, both paths are the same line; anchored at the first pose, which
   // is turned, they are not.
   Trajectory estimate = circle();
@@ -149,7 +149,7 @@ TEST_F(Evaluation, ThePictureHoldsBothPathsTwiceAndBothErrors) {
   EXPECT_LT(above.y(), right.y() - 50.0);
 }
 
-TEST_F(Evaluation, LibrsvgRendersThePictureOfEveryKindOfPath) {
+TEST_F(EvaluationFiles, LibrsvgRendersThePictureOfEveryKindOfPath) {
   if (!testing::has_program("rsvg-convert")) {
     GTEST_SKIP() << "rsvg-convert (librsvg2-bin) is missing";
   }
@@ -166,7 +166,7 @@ TEST_F(Evaluation, LibrsvgRendersThePictureOfEveryKindOfPath) {
   }
 }
 
-TEST_F(Evaluation, AFileNameWithMarkupStaysText) {
+TEST_F(EvaluationFiles, AFileNameWithMarkupStaysText) {
   write_trajectory(path("a<b>&.tum"), circle());
   write_trajectory(path("reference.tum"), circle());
   const auto evaluation = evaluate_trajectory(path("a<b>&.tum"), path("reference.tum"), 0.02);
