@@ -103,7 +103,7 @@ std::string plane_table(const std::vector<SurfaceEvaluation>& planes) {
   }
   const auto unseen = std::count_if(planes.begin(), planes.end(),
                                     [](const SurfaceEvaluation& plane) { return !plane.seen; });
-  if (unseen > 0) text += fmt::format("\nCould not be seen: {} planes.\n", unseen);
+  if (unseen > 0) text += fmt::format("\nPlanes that could not be seen: {}.\n", unseen);
   return text;
 }
 

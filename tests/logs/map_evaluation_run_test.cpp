@@ -127,7 +127,7 @@ TEST_F(EvaluatedFiles, TheReportHoldsTablesAndTheFalseFeatures) {
   EXPECT_THAT(report, HasSubstr("| floor \\| <b> | 0 | 1 | - |"));
   EXPECT_THAT(report, HasSubstr("| wall | 1 | 1 | 0.00 |"));
   EXPECT_THAT(report, Not(HasSubstr("| behind |")));
-  EXPECT_THAT(report, HasSubstr("Could not be seen: 1 planes."));
+  EXPECT_THAT(report, HasSubstr("Planes that could not be seen: 1."));
   EXPECT_THAT(report, HasSubstr("| 1000-1 | 2.000 |"));
   EXPECT_THAT(report, Not(HasSubstr("# Trajectory")));
   const std::string summary = summary_text(evaluate(options));

@@ -192,10 +192,14 @@ TEST(MapEvaluation, HalfOfAFeatureMustLieOnTheSurface) {
 TEST(MapEvaluation, OfTwoSurfacesTheNearerOneIsMeant) {
   const Truth boards = {{draw_truth("lower", kTable, kWhole, {kWhole}),
                          draw_truth("upper", raised(kTable, 0.05), kWhole, {kWhole})}};
-  const MapEvaluation result = evaluate({draw_feature(1, raised(kTable, 0.03), {kWhole})}, boards);
-  EXPECT_EQ(result.planes[0].features, 0U);
-  EXPECT_EQ(result.planes[1].features, 1U);
-  EXPECT_NEAR(result.errors->dist_local, 0.02, kExact);
+  for (const std::size_t nearer : {0U, 1U}) {
+    const double height = nearer == 0 ? 0.02 : 0.03;
+    const MapEvaluation result =
+        evaluate({draw_feature(1, raised(kTable, height), {kWhole})}, boards);
+    EXPECT_EQ(result.planes[nearer].features, 1U);
+    EXPECT_EQ(result.planes[1 - nearer].features, 0U);
+    EXPECT_NEAR(result.errors->dist_local, 0.02, kExact);
+  }
 }
 
 TEST(MapEvaluation, OpeningsBelongToTheOutline) {
