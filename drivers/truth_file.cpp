@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMaxCoordinate = 1e4;    // [m]; coordinates in a plane frame reach ten times as far
-constexpr double kMaxOffPlane = 1e-3;     // [m]
+constexpr double kMaxCoordinate = 1e4;  // [m]; coordinates in a plane frame reach ten times as far
+constexpr double kMaxOffPlane = 1e-3;   // [m]
 constexpr double kUnitTolerance = 1e-12;  // a normal this close to length 1 is kept as it is
 
 class TruthReader {
