@@ -39,8 +39,22 @@ std::vector<double> multiples(const PlotAxis& axis, double step) {
   return values;
 }
 
+std::vector<double> logarithmic_ticks(const PlotAxis& axis, std::initializer_list<double> digits) {
+  std::vector<double> values;
+  const double first = std::floor(std::log10(axis.low));
+  for (double power = first; power <= std::log10(axis.high); ++power) {
+    for (const double digit : digits) {
+      const double value = digit * std::pow(10.0, power);
+      const bool within = value >= axis.low * (1.0 - 1e-9) && value <= axis.high * (1.0 + 1e-9);
+      if (within) values.push_back(value);
+    }
+  }
+  return values;
+}
+
 // With as many decimals as tell neighbouring ticks apart.
-std::string number_text(double value, const std::vector<double>& ticks) {
+std::string number_text(double value, const std::vector<double>& ticks, const PlotAxis& axis) {
+  if (axis.logarithmic) return fmt::format("{:g}", value);
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0;
   const int decimals = std::clamp(static_cast<int>(-std::floor(std::log10(step) + 1e-6)), 0, 6);
   const double unit = std::pow(10.0, -decimals);
@@ -54,7 +68,7 @@ void draw_x_ticks(SvgCanvas& canvas, const PlotFrame& frame) {
   for (const double value : ticks) {
     const double x = frame.to_picture({value, frame.y.low}).x();
     canvas.line({x, frame.corner.y()}, {x, bottom}, kGrid, 1.0);
-    canvas.text({x, bottom + 17.0}, number_text(value, ticks),
+    canvas.text({x, bottom + 17.0}, number_text(value, ticks, frame.x),
                 {.size = kNumberSize, .color = kInk, .anchor = TextAnchor::kMiddle});
   }
 }
@@ -64,20 +78,29 @@ void draw_y_ticks(SvgCanvas& canvas, const PlotFrame& frame) {
   for (const double value : ticks) {
     const double y = frame.to_picture({frame.x.low, value}).y();
     canvas.line({frame.corner.x(), y}, {frame.corner.x() + frame.size.x(), y}, kGrid, 1.0);
-    canvas.text({frame.corner.x() - 7.0, y + 4.0}, number_text(value, ticks),
+    canvas.text({frame.corner.x() - 7.0, y + 4.0}, number_text(value, ticks, frame.y),
                 {.size = kNumberSize, .color = kInk, .anchor = TextAnchor::kEnd});
   }
 }
 
 }  // namespace
 
+double PlotAxis::share(double value) const {
+  if (logarithmic) return std::log(value / low) / std::log(high / low);
+  return (value - low) / (high - low);
+}
+
 Vector2d PlotFrame::to_picture(const Vector2d& value) const {
-  const Vector2d share((value.x() - x.low) / (x.high - x.low),
-                       (y.high - value.y()) / (y.high - y.low));
+  const Vector2d share(x.share(value.x()), 1.0 - y.share(value.y()));
   return corner + share.cwiseProduct(size);
 }
 
 std::vector<double> ticks_of(const PlotAxis& axis, double wanted) {
+  if (axis.logarithmic) {
+    const std::vector<double> ticks = logarithmic_ticks(axis, {1.0, 2.0, 5.0});
+    const bool crowded = static_cast<double>(ticks.size()) > std::max(wanted, 2.0);
+    return crowded ? logarithmic_ticks(axis, {1.0}) : ticks;
+  }
   const double range = axis.high - axis.low;
   const std::vector<double> ticks = multiples(axis, round_step(range / std::max(wanted, 1.0)));
   // A single number tells no scale. A step is at most 2.5 times what it must be, so 5 give two.

@@ -13,8 +13,12 @@ namespace geomap::logs {
 /// @brief What an axis shows, and what stands beside it.
 struct PlotAxis {
   double low = 0.0;
-  double high = 1.0;  // above low
-  std::string label;  // with the unit: "x [m]"
+  double high = 1.0;         // above low
+  std::string label;         // with the unit: "x [m]"
+  bool logarithmic = false;  // then low is above 0
+
+  /// @brief Where a value lies: 0 at low, 1 at high.
+  double share(double value) const;
 };
 
 /// @brief A rectangle of a picture with two axes.
@@ -34,7 +38,8 @@ inline constexpr double kPlotTop = 46.0;
 inline constexpr double kPlotBottom = 44.0;
 
 /// @brief Round values within an axis, 1, 2 or 5 times a power of ten apart: at most about `wanted`
-/// of them, but two at least.
+/// of them, but two at least. Of a logarithmic axis: 1, 2 and 5 times the powers of ten, only these
+/// powers where that would be more than `wanted`.
 std::vector<double> ticks_of(const PlotAxis& axis, double wanted);
 
 /// @brief Grid, ticks with their numbers, labels and title.

@@ -90,6 +90,17 @@ std::string tracking_rows(const Report& report) {
   return text;
 }
 
+// After each key frame: what a plot of the growing map needs (the paper's Figure 6).
+nlohmann::ordered_json growth_json(const Report& report) {
+  std::vector<int> extracted;
+  std::vector<int> features;
+  for (const KeyframeRecord& keyframe : report.keyframes) {
+    extracted.push_back(keyframe.planes + (extracted.empty() ? 0 : extracted.back()));
+    features.push_back(keyframe.map_features);
+  }
+  return {{"planes_extracted", extracted}, {"map_features", features}};
+}
+
 nlohmann::ordered_json to_json(const Report& report) {
   nlohmann::ordered_json json;
   const DataReduction& reduction = report.reduction;
@@ -105,6 +116,7 @@ nlohmann::ordered_json to_json(const Report& report) {
   json["log_damaged"] = report.log_damaged;
   json["planes_extracted"] = planes_extracted(report);
   json["map_features"] = report.map.features.size();
+  json["growth"] = growth_json(report);
   json["map_duplicates"] = find_duplicates(report.map.features).size();
   json["map_vertices"] = reduction.map_vertices;
   json["bytes"] = {{"raw", reduction.raw_bytes},

@@ -21,6 +21,17 @@ TEST(PlotFrame, ValuesRunToTheRightAndUpwards) {
   EXPECT_EQ(frame.to_picture({1.0, 0.0}), Eigen::Vector2d(250.0, 120.0));
 }
 
+TEST(PlotFrame, ALogarithmicAxisHasEqualRatiosEquallyFarApart) {
+  PlotFrame frame{"", {0.0, 0.0}, {100.0, 100.0}, {0.0, 1.0, ""}, {0.01, 1.0, "", true}};
+  EXPECT_NEAR(frame.to_picture({0.0, 0.01}).y(), 100.0, 1e-9);
+  EXPECT_NEAR(frame.to_picture({0.0, 0.1}).y(), 50.0, 1e-9);
+  EXPECT_NEAR(frame.to_picture({0.0, 1.0}).y(), 0.0, 1e-9);
+  using ::testing::DoubleEq;
+  EXPECT_THAT(ticks_of({0.3, 6.0, "", true}, 8.0),
+              ElementsAre(DoubleEq(0.5), DoubleEq(1.0), DoubleEq(2.0), DoubleEq(5.0)));
+  EXPECT_THAT(ticks_of({0.3, 60.0, "", true}, 3.0), ElementsAre(DoubleEq(1.0), DoubleEq(10.0)));
+}
+
 TEST(PlotFrame, NumbersHaveTheDecimalsThatTellThemApart) {
   mapping::SvgCanvas canvas;
   draw_frame(canvas, {"", {50, 20}, {300, 100}, {-0.3, 0.31, ""}, {0.0, 4000.0, ""}});

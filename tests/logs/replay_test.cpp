@@ -79,6 +79,24 @@ TEST_F(Replay, WritesEveryResultItPromises) {
   EXPECT_THAT(read_file(path("out/report.md")), ::testing::HasSubstr("map.svg"));
 }
 
+TEST_F(Replay, TheReportTellsHowTheMapGrewOverTheKeyFrames) {
+  const ReplayResult result = replay_events(testing::synthetic_log(20));
+  const auto json = nlohmann::json::parse(read_file(path("out/report.json")));
+  const std::vector<int> extracted = json["growth"]["planes_extracted"];
+  const std::vector<int> features = json["growth"]["map_features"];
+  const std::vector<KeyframeRecord>& keyframes = result.report.keyframes;
+  ASSERT_GE(keyframes.size(), 2U);
+  ASSERT_EQ(extracted.size(), keyframes.size());
+  ASSERT_EQ(features.size(), keyframes.size());
+  int sum = 0;
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    EXPECT_EQ(extracted[i], sum += keyframes[i].planes) << i;
+    EXPECT_EQ(features[i], keyframes[i].map_features) << i;
+  }
+  EXPECT_EQ(json["planes_extracted"], extracted.back());
+  EXPECT_EQ(json["map_features"], features.back());
+}
+
 TEST_F(Replay, TheSavedMapIsTheMapOfTheReport) {
   const ReplayResult result = replay_events(testing::synthetic_log(12));
   const mapping::SavedMap saved = mapping::load_map(path("out/map.lcmlog"));
