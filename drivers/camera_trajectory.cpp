@@ -15,21 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Eigen's own rotations ask the C library for sine and cosine.
-Eigen::Matrix3d turned_about_z(double angle) {
-  const auto [s, c] = portable_sincos(angle);
-  Eigen::Matrix3d R;
-  R << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
-  return R;
-}
-
-Eigen::Matrix3d turned_about_y(double angle) {
-  const auto [s, c] = portable_sincos(angle);
-  Eigen::Matrix3d R;
-  R << c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c;
-  return R;
-}
-
 Eigen::Isometry3d pose(const Eigen::Matrix3d& R, const Vector3d& t) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = R;

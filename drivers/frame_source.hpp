@@ -27,6 +27,7 @@ struct SourceFrame {
   /// frame.color_camera has the image's size. Nothing is lost by coding it twice.
   std::vector<std::uint8_t> jpeg;
   std::optional<Eigen::Isometry3d> truth_T_world_camera;
+  std::optional<Eigen::Isometry3d> T_body_camera;  // of a neck; none: forward_camera_mount()
   std::string origin;  // file or device, for messages to people
 };
 

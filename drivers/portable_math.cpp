@@ -41,6 +41,27 @@ SineAndCosine portable_sincos(double angle) {
   }
 }
 
+Eigen::Matrix3d turned_about_x(double angle) {
+  const auto [s, c] = portable_sincos(angle);
+  Eigen::Matrix3d R;
+  R << 1.0, 0.0, 0.0, 0.0, c, -s, 0.0, s, c;
+  return R;
+}
+
+Eigen::Matrix3d turned_about_y(double angle) {
+  const auto [s, c] = portable_sincos(angle);
+  Eigen::Matrix3d R;
+  R << c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c;
+  return R;
+}
+
+Eigen::Matrix3d turned_about_z(double angle) {
+  const auto [s, c] = portable_sincos(angle);
+  Eigen::Matrix3d R;
+  R << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
+  return R;
+}
+
 double portable_log(double x) {
   // x = m 2^e with m in [√½, √2), and log m = 2 atanh s with s = (m - 1) / (m + 1), |s| < 0.172.
   constexpr auto kBitsOfRootOfHalf = std::bit_cast<std::int64_t>(std::numbers::sqrt2 / 2.0);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+
 namespace geomap::drivers {
 
 // The C library chooses between variants of its functions by what the CPU can do, and their last
@@ -13,6 +15,11 @@ struct SineAndCosine {
 
 /// @brief Both within 1e-15 for |angle| below 1e5 rad.
 SineAndCosine portable_sincos(double angle);
+
+/// @brief The rotation by an angle [rad] about an axis; Eigen's own ask the C library.
+Eigen::Matrix3d turned_about_x(double angle);
+Eigen::Matrix3d turned_about_y(double angle);
+Eigen::Matrix3d turned_about_z(double angle);
 
 /// @brief Natural logarithm of a positive, normal number, to about 16 digits.
 double portable_log(double x);

@@ -28,6 +28,11 @@ inline Eigen::Vector2d to_metres(GridPoint p) { return {p.x * kGridUnit, p.y * k
 /// @brief Closed ring; the last vertex is joined to the first one.
 using Ring = std::vector<GridPoint>;
 
+/// @brief The rectangle between two corners [m], counter-clockwise.
+inline Ring rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+  return {to_grid(low), to_grid({high.x(), low.y()}), to_grid(high), to_grid({low.x(), high.y()})};
+}
+
 /// @brief One connected area: outer ring counter-clockwise, holes clockwise.
 struct PolygonPart {
   Ring outer;

@@ -6,13 +6,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
-#include "drivers/camera_mount.hpp"
-#include "messaging/channels.hpp"
-#include "messaging/convert_frame.hpp"
+#include "drivers/frame_messages.hpp"
 #include "messaging/convert_geometry.hpp"
-#include "messaging/jpeg.hpp"
 #include "messaging/log_writer.hpp"
 #include "messaging/part_file.hpp"
 
@@ -20,7 +18,6 @@ namespace geomap::logs {
 namespace {
 
 namespace fs = std::filesystem;
-namespace channels = messaging::channels;
 
 // The smallest rotation that turns `up` into +z.
 Eigen::Isometry3d upright(const std::optional<Eigen::Vector3d>& up) {
@@ -42,19 +39,6 @@ ImportPrior choose_prior(const drivers::FrameSource& source, const ImportSetting
   return *settings.prior;
 }
 
-geomap::rgbd_frame_t frame_message(const drivers::SourceFrame& source_frame) {
-  const std::vector<std::uint8_t>& jpeg = source_frame.jpeg;
-  // Whoever replays the log would lose this frame: better said now.
-  if (!jpeg.empty() && !messaging::decode_jpeg(jpeg)) {
-    throw drivers::SourceError(source_frame.origin + ": its JPEG colour image does not decode");
-  }
-  try {
-    return messaging::to_message(source_frame.frame, jpeg);
-  } catch (const std::invalid_argument& error) {
-    throw drivers::SourceError(source_frame.origin + ": " + error.what());
-  }
-}
-
 // Writes frames one by one and keeps count.
 class Importer {
  public:
@@ -67,27 +51,25 @@ class Importer {
     summary_.prior = choose_prior(source, settings);
   }
 
-  void add(const drivers::SourceFrame& source_frame) {
-    std::optional<Eigen::Isometry3d> T_world_camera;
+  void add(drivers::SourceFrame source_frame) {
     if (source_frame.truth_T_world_camera) {
-      T_world_camera = T_world_dataset_ * *source_frame.truth_T_world_camera;
+      source_frame.truth_T_world_camera = T_world_dataset_ * *source_frame.truth_T_world_camera;
     } else if (has_truth_ && summary_.frames == 0) {
       ++summary_.frames_before_truth;
       return;
     }
-    geomap::rgbd_frame_t message = frame_message(source_frame);
-    message.sequence = static_cast<std::int64_t>(summary_.frames);  // what is left out is no loss
-
+    drivers::FrameMessages messages = drivers::to_messages(source_frame, {});
+    messages.frame.sequence =
+        static_cast<std::int64_t>(summary_.frames);  // what is left out is no loss
     const std::int64_t utime = source_frame.frame.utime;
-    write(channels::kCameraToBody, utime, messaging::to_rigid_transform(utime, T_body_camera_));
-    if (T_world_camera) {
-      write(channels::kTruthPose, utime, messaging::to_rigid_transform(utime, *T_world_camera));
+    if (const auto T_world_body = prior(source_frame)) {
+      messages.pose = messaging::to_pose(utime, *T_world_body);
     }
-    if (const auto T_world_body = prior(T_world_camera)) {
-      write(channels::kPose, utime, messaging::to_pose(utime, *T_world_body));
-    }
-    write(channels::kRgbdFrame, utime, message);
-    count(utime, T_world_camera, static_cast<std::size_t>(message.getEncodedSize()));
+    messages.send([&](const char* channel, std::int64_t stamp, const auto& message) {
+      log_.write(channel, stamp, message);
+    });
+    count(utime, source_frame.truth_T_world_camera,
+          static_cast<std::size_t>(messages.frame.getEncodedSize()));
   }
 
   void add_bad(const drivers::SourceError& error) {
@@ -108,19 +90,15 @@ class Importer {
   }
 
  private:
-  template <class Message>
-  void write(const char* channel, std::int64_t utime, const Message& message) {
-    log_.write(channel, utime, message);
-  }
-
   // What POSE says at this frame, if anything.
-  std::optional<Eigen::Isometry3d> prior(const std::optional<Eigen::Isometry3d>& T_world_camera) {
+  std::optional<Eigen::Isometry3d> prior(const drivers::SourceFrame& source_frame) {
     const bool first = summary_.frames == 0;
-    if (!T_world_camera) {
+    if (!source_frame.truth_T_world_camera) {
       return first ? std::optional(T_world_dataset_)
                    : std::nullopt;  // no poses: world = first body
     }
-    const Eigen::Isometry3d T_world_body = *T_world_camera * T_body_camera_.inverse();
+    const Eigen::Isometry3d T_world_body =
+        *source_frame.truth_T_world_camera * drivers::camera_mount_of(source_frame).inverse();
     switch (summary_.prior) {
       case ImportPrior::kTruth:
         return T_world_body;
@@ -147,7 +125,6 @@ class Importer {
   }
 
   const bool has_truth_;
-  const Eigen::Isometry3d T_body_camera_ = drivers::forward_camera_mount();
   const Eigen::Isometry3d T_world_dataset_;
   drivers::OdometryDrift drift_;
   messaging::LogWriter& log_;
@@ -189,9 +166,9 @@ ImportSummary import_frames(drivers::FrameSource& source, const ImportSettings& 
       return summary;
     }
     try {
-      const std::optional<drivers::SourceFrame> frame = source.next();
+      std::optional<drivers::SourceFrame> frame = source.next();
       if (!frame) break;
-      importer.add(*frame);
+      importer.add(std::move(*frame));
     } catch (const drivers::SourceError& error) {
       if (!settings.skip_bad) throw;
       importer.add_bad(error);
