@@ -28,7 +28,7 @@ struct SourceFrame {
   std::vector<std::uint8_t> jpeg;
   std::optional<Eigen::Isometry3d> truth_T_world_camera;
   std::optional<Eigen::Isometry3d> T_body_camera;  // of a neck; none: forward_camera_mount()
-  std::string origin;  // file or device, for messages to people
+  std::string origin;                              // file or device, for messages to people
 };
 
 /// @brief Frames of a data set that are wanted, both ends included. What is counted is the source's

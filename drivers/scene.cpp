@@ -118,7 +118,7 @@ void Scene::add_box(const std::string& box_name, const Rgb& color,
 
 void Scene::add_cylinder(const std::string& cylinder_name, const Rgb& color,
                          const Eigen::Isometry3d& T_world_cylinder, double radius,
-                         double top_radius, double height) {
+                         double top_radius, double height, bool open) {
   std::vector<Vector3d> points;
   std::vector<std::array<std::uint32_t, 3>> indices;
   const std::array<std::array<double, 2>, 4> rings = {
@@ -126,7 +126,7 @@ void Scene::add_cylinder(const std::string& cylinder_name, const Rgb& color,
   for (const auto& [r, z] : rings) {
     for (int i = 0; i < kAround; ++i) points.push_back(T_world_cylinder * on_circle(i, r, z));
   }
-  for (std::uint32_t ring = 0; ring < 3; ++ring) {
+  for (std::uint32_t ring = 0; ring < (open ? 2U : 3U); ++ring) {
     stitch(indices, ring * kAround, (ring + 1) * kAround);
   }
   add_triangles(cylinder_name, color, points, indices);

@@ -55,11 +55,11 @@ struct Scene {
   void add_box(const std::string& box_name, const Rgb& color, const Eigen::Isometry3d& T_world_box,
                const Eigen::Vector3d& size, std::span<const std::string> which);
 
-  /// @brief A cylinder or cone with end discs that stands on the origin of its frame. Its discs are
-  /// no planes of the truth.
+  /// @brief A cylinder or cone that stands on the origin of its frame, closed by discs, which are
+  /// no planes of the truth; or open at its top: a pot.
   void add_cylinder(const std::string& cylinder_name, const Rgb& color,
                     const Eigen::Isometry3d& T_world_cylinder, double radius, double top_radius,
-                    double height);
+                    double height, bool open = false);
 
   /// @brief A sphere about the origin of its frame, without what lies above z = `cut`: a bowl.
   void add_sphere(const std::string& sphere_name, const Rgb& color,

@@ -87,10 +87,11 @@ void add_box(Scene& scene, const YamlMap& shape) {
 
 void add_cylinder(Scene& scene, const YamlMap& shape) {
   shape.allow_only({"name", "color", "position", "yaw_deg", "pitch_deg", "roll_deg", "radius",
-                    "top_radius", "height"});
+                    "top_radius", "height", "open"});
   const double radius = shape.positive("radius");
   scene.add_cylinder(shape.text("name"), color_of(shape), pose_of(shape), radius,
-                     shape.positive("top_radius", radius), shape.positive("height"));
+                     shape.positive("top_radius", radius), shape.positive("height"),
+                     shape.boolean("open", false));
 }
 
 void add_sphere(Scene& scene, const YamlMap& shape) {

@@ -10,12 +10,13 @@
 #include <utility>
 
 #include "drivers/frame_source.hpp"
+#include "drivers/input_file.hpp"
 
 namespace geomap::drivers {
 namespace {
 
 std::string place(const std::filesystem::path& file, const YAML::Mark& mark) {
-  return mark.is_null() ? file.string() : file.string() + ":" + std::to_string(mark.line + 1);
+  return file.string() + ":" + std::to_string(mark.is_null() ? 1 : mark.line + 1);
 }
 
 std::string in_quotes(std::string_view text) {
@@ -64,10 +65,9 @@ YamlMap::YamlMap(std::filesystem::path file, const YAML::Node& node)
 }
 
 YamlMap YamlMap::load(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> bytes = read_bytes(file);
   try {
-    return {file, YAML::LoadFile(file.string())};
-  } catch (const YAML::BadFile&) {
-    throw SourceError(file.string() + ": cannot be read");
+    return {file, YAML::Load(std::string(bytes.begin(), bytes.end()))};
   } catch (const YAML::Exception& error) {
     throw SourceError(place(file, error.mark) + ": not YAML: " + error.msg);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/polygon_simplify.hpp"
+#include "perception/part_curvature.hpp"
 #include "perception/plane_rays.hpp"
 
 namespace geomap::perception {
@@ -42,6 +43,17 @@ bool is_flat(const geometry::PlaneFit& fit, const geometry::PlaneMoments& moment
                         0.5 * tolerance.unevenness;
 }
 
+// A cylinder or a sphere, and no plane: its curvature is beyond doubt, and more than the unevenness
+// of surfaces or the camera's systematic error.
+bool is_curved(const PlanePart& part, const geometry::PlaneFit& fit,
+               const DepthTolerance& tolerance, double cosine,
+               const ObservationSettings& settings) {
+  const auto curvature = curvature_of(part, fit);
+  return curvature && curvature->value - 3.0 * curvature->sigma > settings.max_curvature &&
+         curvature->sagitta >
+             tolerance.unevenness + cosine * tolerance.systematic_along_ray(fit.centroid.z());
+}
+
 double covered_area(const geometry::CameraModel& camera, const geometry::Plane& plane,
                     const PlanePart& part) {
   double sum = 0.0;
@@ -68,6 +80,7 @@ std::optional<geometry::PlaneObservation> observe(const geometry::CameraModel& c
   if (-plane.normal.dot(centroid.normalized()) < settings.min_view_cosine) return std::nullopt;
   const double ray_cosine = -plane.normal.dot(centroid) / centroid.z();
   if (!is_flat(*fit, observation.moments, tolerance, ray_cosine, settings)) return std::nullopt;
+  if (is_curved(part, *fit, tolerance, ray_cosine, settings)) return std::nullopt;
 
   observation.rms = fit->rms;
   geometry::PlanarPolygon& surface = observation.surface;

@@ -70,6 +70,7 @@ ObservationSettings observation_settings(const RansacExtractorConfig& config) {
   settings.min_pixels = config.min_pixels;
   settings.min_fill = config.min_fill;
   settings.max_rms_ratio = config.max_rms_ratio;
+  settings.max_curvature = config.max_curvature;
   settings.alpha = config.alpha;
   settings.simplify_tolerance = config.simplify_tolerance;
   return settings;

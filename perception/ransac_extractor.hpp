@@ -34,6 +34,7 @@ struct RansacExtractorConfig {
   int min_pixels = 200;        // of a plane
   double min_fill = 0.4;       // share of the outline's area that pixels cover
   double max_rms_ratio = 1.6;  // rms of a plane over what the noise model expects
+  double max_curvature = 1.0;  // of a plane [1/m]; beyond, it is a cylinder or a ball
 
   std::string orientation = "any";  // any, horizontal, vertical: which planes are wanted (paper)
   double max_tilt_deg = 10.0;       // from exactly horizontal or vertical
@@ -61,6 +62,7 @@ struct RansacExtractorConfig {
     visitor("min_pixels", self.min_pixels);
     visitor("min_fill", self.min_fill);
     visitor("max_rms_ratio", self.max_rms_ratio);
+    visitor("max_curvature", self.max_curvature);
     visitor("orientation", self.orientation);
     visitor("max_tilt_deg", self.max_tilt_deg);
   }

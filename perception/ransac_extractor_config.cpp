@@ -49,6 +49,7 @@ std::vector<std::string> RansacExtractorConfig::validate() const {
   check.between("min_pixels", min_pixels, 10, 1e7);
   check.between("min_fill", min_fill, 0.0, 1.0);
   check.between("max_rms_ratio", max_rms_ratio, 1.0, 100.0);
+  check.between("max_curvature", max_curvature, 0.0, 1000.0);
   check.one_of("orientation", orientation, {"any", "horizontal", "vertical"});
   check.between("max_tilt_deg", max_tilt_deg, 0.1, 45.0);
   return check.messages;
