@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -52,11 +53,18 @@ double median_of(const Report& report, const Figure& figure) {
   return summarize(std::move(values)).p50;
 }
 
+std::int64_t unknown_views(const Report& report) {
+  return std::count_if(report.keyframes.begin(), report.keyframes.end(), [](const auto& keyframe) {
+    return keyframe.registration.reason == perception::RegistrationReason::kUnknownView;
+  });
+}
+
 nlohmann::ordered_json registration_json(const Report& report) {
   using perception::Alignment;
   return {{"lost", report.tracking.lost},
           {"relocalised", report.tracking.relocalised},
           {"lost_at_end", report.lost_at_end},
+          {"unknown_views", unknown_views(report)},
           {"odometry_relinked", report.tracking.relinked},
           {"time_went_back", report.tracking.time_went_back},
           {"depth_corrections", report.tracking.corrections},
@@ -78,6 +86,7 @@ std::string tracking_rows(const Report& report) {
   row("times the camera was lost", report.tracking.lost);
   row("times it was found again", report.tracking.relocalised);
   if (report.lost_at_end) text += "| at the end | lost |\n";
+  row("key frames that the map knew too little of: posed by odometry", unknown_views(report));
   row("odometry tied in anew after a break", report.tracking.relinked);
   row("frames older than the one before", report.tracking.time_went_back);
   row("jumps of POSE", report.poses.jumps);

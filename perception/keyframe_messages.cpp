@@ -14,6 +14,7 @@ std::int8_t status_of(RegistrationReason reason) {
     case RegistrationReason::kAligned:
     case RegistrationReason::kFirst:
     case RegistrationReason::kPriorTrusted:
+    case RegistrationReason::kUnknownView:
       return Message::ACCEPTED;
     case RegistrationReason::kTooFewReadings:
       return Message::TOO_FEW_POINTS;

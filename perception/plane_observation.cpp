@@ -15,6 +15,8 @@ namespace {
 // one.
 constexpr double kCorrelatedPixels = 64.0;
 
+constexpr double kLeastBow = 0.25;  // of what is bent, over the unevenness of what is flat
+
 geometry::PlaneObservation without_surface(const PlanePart& part) {
   PlaneSums sums;
   for (const PlaneCell* cell : part) sums += cell->sums;
@@ -43,15 +45,16 @@ bool is_flat(const geometry::PlaneFit& fit, const geometry::PlaneMoments& moment
                         0.5 * tolerance.unevenness;
 }
 
-// A cylinder or a sphere, and no plane: its curvature is beyond doubt, and more than the unevenness
-// of surfaces or the camera's systematic error.
+// A cylinder or a sphere, and no plane: its curvature is beyond doubt, and the bow more than the
+// camera's systematic error could make. Narrow strips of a pillar bow by less than flat surfaces
+// are granted to be uneven, but all of them evenly.
 bool is_curved(const PlanePart& part, const geometry::PlaneFit& fit,
                const DepthTolerance& tolerance, double cosine,
                const ObservationSettings& settings) {
   const auto curvature = curvature_of(part, fit);
   return curvature && curvature->value - 3.0 * curvature->sigma > settings.max_curvature &&
-         curvature->sagitta >
-             tolerance.unevenness + cosine * tolerance.systematic_along_ray(fit.centroid.z());
+         curvature->sagitta > kLeastBow * tolerance.unevenness +
+                                  cosine * tolerance.systematic_along_ray(fit.centroid.z());
 }
 
 double covered_area(const geometry::CameraModel& camera, const geometry::Plane& plane,

@@ -14,6 +14,8 @@ std::string_view to_string(RegistrationReason reason) {
       return "first";
     case RegistrationReason::kPriorTrusted:
       return "prior_trusted";
+    case RegistrationReason::kUnknownView:
+      return "unknown_view";
     case RegistrationReason::kTooFewReadings:
       return "too_few_readings";
     case RegistrationReason::kInvalidPrior:

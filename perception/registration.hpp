@@ -14,6 +14,7 @@ enum class RegistrationReason {
   kAligned,           // accepted
   kFirst,             // accepted: there was no map yet, the prior fixes its frame
   kPriorTrusted,      // accepted: nothing was aligned, the prior was taken as it is
+  kUnknownView,       // accepted: the map knows too little of the view, odometry tells the pose
   kTooFewReadings,    // rejected: too little depth, or too few surfaces, in the frame
   kInvalidPrior,      // rejected: the prior is not finite or not a rotation and a translation
   kOverlapTooSmall,   // rejected: too little of the view is in the map

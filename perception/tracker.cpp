@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/angles.hpp"
 #include "perception/rigid_transform.hpp"
 
 namespace geomap::perception {
@@ -37,6 +38,8 @@ std::vector<std::string> RegistrationConfig::validate() const {
   if (!(found_overlap >= 0.0) || !(found_overlap <= 1.0)) {
     errors.push_back("found_overlap must be between 0 and 1");
   }
+  if (!(unknown_step >= 0.0)) errors.push_back("unknown_step must be 0 m or more");
+  if (!(unknown_turn_deg >= 0.0)) errors.push_back("unknown_turn_deg must be 0 or more");
   return errors;
 }
 
@@ -103,7 +106,28 @@ Eigen::Isometry3d Tracker::continued_motion(std::int64_t utime) const {
 
 RegistrationResult Tracker::register_view(const FrameView& view, const Start& start) const {
   if (lost_) return relocalise(view, start);
-  return registration_->align(view, point_map_.voxels(), start.T_world_camera, start.source);
+  RegistrationResult result =
+      registration_->align(view, point_map_.voxels(), start.T_world_camera, start.source);
+  if (is_new_ground(result, start)) {
+    result.accepted = true;
+    result.reason = RegistrationReason::kUnknownView;
+  }
+  return result;
+}
+
+// The map knows too little of the view to align it, and nothing speaks against the odometry.
+bool Tracker::is_new_ground(const RegistrationResult& result, const Start& start) const {
+  if (result.reason != RegistrationReason::kOverlapTooSmall || !result.alignment ||
+      start.source != PriorSource::kMeasured || keyframes_.empty()) {
+    return false;
+  }
+  const RegistrationConfig& limits = config_.registration;
+  const Alignment& found = *result.alignment;
+  if (found.partners > 0 && found.agreement < limits.icp.min_agreement) return false;
+  const Eigen::Isometry3d& T_world_last = keyframes_.back().T_world_camera;
+  const double step = (start.T_world_camera.translation() - T_world_last.translation()).norm();
+  return step <= limits.unknown_step && angle_between(start.T_world_camera, T_world_last) <=
+                                            geometry::radians(limits.unknown_turn_deg);
 }
 
 // From the start and from the poses of key frames, a few for each frame in turn, newest first. The

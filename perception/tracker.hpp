@@ -26,6 +26,9 @@ struct RegistrationConfig {
   int lost_after = 10;         // rejections in a row that mean the camera is lost
   int places = 8;              // key frames at whose poses each frame of a lost camera is tried
   double found_overlap = 0.5;  // of the view, before a lost camera counts as found
+  // How far from the last key frame odometry is followed into what the map does not know.
+  double unknown_step = 0.5;       // [m]
+  double unknown_turn_deg = 30.0;  // [deg]
 
   std::vector<std::string> validate() const;
 
@@ -37,6 +40,8 @@ struct RegistrationConfig {
     visitor("lost_after", self.lost_after);
     visitor("places", self.places);
     visitor("found_overlap", self.found_overlap);
+    visitor("unknown_step", self.unknown_step);
+    visitor("unknown_turn_deg", self.unknown_turn_deg);
   }
 };
 
@@ -86,6 +91,9 @@ struct TrackerCounts {
 /// registered. The first accepted frame fixes the world: at its prior, or without any POSE at the
 /// configured camera on a body at the origin.
 ///
+/// Through a doorway a view may show hardly anything that the map knows: with odometry that holds,
+/// its pose is taken, up to `unknown_step` from the last key frame.
+///
 /// After `lost_after` rejections in a row the camera is lost: nothing enters the map, and each
 /// frame is aligned from the prior and from the poses of key frames until one fits well.
 class Tracker {
@@ -127,6 +135,7 @@ class Tracker {
   std::optional<Start> start_of(const Prior& prior, std::int64_t utime) const;
   Eigen::Isometry3d continued_motion(std::int64_t utime) const;
   RegistrationResult register_view(const FrameView& view, const Start& start) const;
+  bool is_new_ground(const RegistrationResult& result, const Start& start) const;
   RegistrationResult relocalise(const FrameView& view, const Start& start) const;
   Tracked reject(std::int64_t utime, const Start& start, RegistrationResult result);
   Tracked take(std::int64_t utime, const Prior& prior, FrameView view, RegistrationResult result);
