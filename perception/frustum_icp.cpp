@@ -180,7 +180,12 @@ class Aligner {
         scale_of(radius_).asDiagonal() * directions_.leftCols(observed_);
     Eigen::MatrixXd information = basis.transpose() * sums.matrix() * basis;
     information.diagonal().array() += damping;
-    const Eigen::VectorXd vector = basis.transpose() * Vector6(sums.vector.data());
+    Eigen::VectorXd vector = basis.transpose() * Vector6(sums.vector.data());
+    if (config_.hold_sigma > 0.0) {
+      const double hold = kCorrelation / (config_.hold_sigma * config_.hold_sigma);
+      information.diagonal().array() += hold;
+      vector -= hold * directions_.leftCols(observed_).transpose() * corrected();
+    }
     const Vector6 twist = basis * information.ldlt().solve(vector);
     last_step_ = twist.head<3>().norm();
     last_angle_ = twist.tail<3>().norm();
@@ -193,15 +198,20 @@ class Aligner {
   // correction of the start that is projected.
   void keep_observed() {
     if (observed_ == 6) return;
+    const auto observed = directions_.leftCols(observed_);
+    const Vector6 twist =
+        scale_of(radius_).asDiagonal() * (observed * (observed.transpose() * corrected())).eval();
+    T_.linear() = turned(start_, twist.tail<3>());
+    T_.translation() = start_.translation() + twist.head<3>();
+  }
+
+  // From the start to the pose so far, rotations as lengths [m].
+  Vector6 corrected() const {
     const Eigen::AngleAxisd turn(
         Eigen::Quaterniond(T_.linear() * start_.linear().transpose()).normalized());
     Vector6 twist;
     twist << T_.translation() - start_.translation(), turn.angle() * turn.axis();
-    const auto observed = directions_.leftCols(observed_);
-    const Vector6 lengths = scale_of(radius_).cwiseInverse().asDiagonal() * twist;
-    twist = scale_of(radius_).asDiagonal() * (observed * (observed.transpose() * lengths)).eval();
-    T_.linear() = turned(start_, twist.tail<3>());
-    T_.translation() = start_.translation() + twist.head<3>();
+    return scale_of(radius_).cwiseInverse().asDiagonal() * twist;
   }
 
   static Vector6 scale_of(double radius) {  // from lengths to a twist
@@ -260,6 +270,7 @@ std::vector<std::string> FrustumIcpConfig::validate() const {
     errors.push_back("max_normal_angle_deg must be above 0 and at most 90");
   }
   if (!(prior_sigma > 0.0)) errors.push_back("prior_sigma must be above 0 m");
+  if (!(hold_sigma >= 0.0)) errors.push_back("hold_sigma must be 0 m or more");
   if (!(noise_factor >= 0.0)) errors.push_back("noise_factor must not be negative");
   if (!(least_information >= 0.0) || !(least_information < 1.0)) {
     errors.push_back("least_information must be at least 0 and below 1");

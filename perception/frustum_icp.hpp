@@ -22,7 +22,8 @@ struct FrustumIcpConfig {
   double gate = 0.05;                  // and in the end [m]; halves from step to step in between
   double max_normal_angle_deg = 40.0;  // between the normals of partners
   double prior_sigma = 0.05;           // what is known of the pose beforehand [m], see align()
-  double least_information = 0.0007;   // of a direction, against one that every surfel fixes
+  double hold_sigma = 0.02;  // by which a measured motion may be off [m]; 0: held by nothing
+  double least_information = 0.0007;  // of a direction, against one that every surfel fixes
 
   double noise_factor = 2.0;  // and against what noise of the normals feigns
 
@@ -36,6 +37,7 @@ struct FrustumIcpConfig {
     visitor("gate", self.gate);
     visitor("max_normal_angle_deg", self.max_normal_angle_deg);
     visitor("prior_sigma", self.prior_sigma);
+    visitor("hold_sigma", self.hold_sigma);
     visitor("least_information", self.least_information);
     visitor("noise_factor", self.noise_factor);
   }

@@ -64,7 +64,10 @@ RegistrationResult IcpRegistration::align(const FrameView& view, const VoxelMap&
   result.blocks_visited = selection.blocks_visited;
   // Where the prior is a guess, what the view tells weakly is still the better of the two.
   FrustumIcpConfig icp = config_.icp;
-  if (source == PriorSource::kGuessed) icp.noise_factor *= kGuessShare;
+  if (source == PriorSource::kGuessed) {
+    icp.noise_factor *= kGuessShare;
+    icp.hold_sigma = 0.0;
+  }
   result.alignment =
       perception::align(std::move(selection.surfels), view.surfaces, T_world_camera_prior, icp);
   result.reason = judge(result, source);
