@@ -31,10 +31,12 @@ constexpr double kCorrelation = 8.0;  // surfels that say no more than one
 
 class Aligner {
  public:
-  Aligner(std::vector<Surfel> surfels, const SurfaceImage& view, const FrustumIcpConfig& config)
+  Aligner(std::vector<Surfel> surfels, const SurfaceImage& view, const FrustumIcpConfig& config,
+          double hold_sigma)
       : surfels_(std::move(surfels)),
         view_(view),
         config_(config),
+        hold_sigma_(hold_sigma),
         least_cosine_(std::cos(geometry::radians(config.max_normal_angle_deg))) {}
 
   Alignment run(const Eigen::Isometry3d& prior) {
@@ -70,7 +72,7 @@ class Aligner {
       const IcpSums sums = sum(gate, kCoarseStride);
       radius_ = sums.radius();
       const double damping = sums.weight * std::max(kLeastDamping, config_.least_information);
-      if (!advance(sums, damping, result)) return false;
+      if (!advance(sums, damping, false, result)) return false;
     }
     observed_ = -1;  // not known yet
     return true;
@@ -95,18 +97,18 @@ class Aligner {
     keep_observed();
     for (int i = config_.coarse_iterations; i < config_.max_iterations; ++i) {
       const double gate = std::max(config_.gate, std::ldexp(config_.coarse_gate, -i));
-      if (!advance(sum(gate, 1), 0.0, result)) return false;
+      if (!advance(sum(gate, 1), 0.0, hold_sigma_ > 0.0, result)) return false;
       if (gate == config_.gate && last_step_ < kDone && last_angle_ < kDone) break;
     }
     return true;
   }
 
-  bool advance(const IcpSums& sums, double damping, Alignment& result) {
+  bool advance(const IcpSums& sums, double damping, bool is_held, Alignment& result) {
     result.partners = sums.partners;
     ++result.iterations;
     result.converged = false;
     if (sums.partners < kLeastPartners) return false;
-    step(sums, damping);
+    step(sums, damping, is_held);
     result.converged = last_step_ < kConvergedTranslation && last_angle_ < kConvergedAngle;
     return true;
   }
@@ -173,7 +175,7 @@ class Aligner {
   }
 
   // Gauss-Newton within the observed directions.
-  void step(const IcpSums& sums, double damping) {
+  void step(const IcpSums& sums, double damping, bool is_held) {
     last_step_ = last_angle_ = 0.0;
     if (observed_ == 0) return;
     const Eigen::Matrix<double, 6, Eigen::Dynamic> basis =
@@ -181,17 +183,26 @@ class Aligner {
     Eigen::MatrixXd information = basis.transpose() * sums.matrix() * basis;
     information.diagonal().array() += damping;
     Eigen::VectorXd vector = basis.transpose() * Vector6(sums.vector.data());
-    if (config_.hold_sigma > 0.0) {
-      const double hold = kCorrelation / (config_.hold_sigma * config_.hold_sigma);
-      information.diagonal().array() += hold;
-      vector -= hold * directions_.leftCols(observed_).transpose() * corrected();
-    }
+    if (is_held) hold(information, vector);
     const Vector6 twist = basis * information.ldlt().solve(vector);
     last_step_ = twist.head<3>().norm();
     last_angle_ = twist.tail<3>().norm();
     T_.linear() = turned(T_, twist.tail<3>());
     T_.translation() += twist.head<3>();
     keep_observed();
+  }
+
+  // What odometry says of the motion, as one more measurement: it decides where the view tells
+  // little. Where the two differ by more than it may be off (Cauchy), it is the odometry that is
+  // wrong.
+  void hold(Eigen::MatrixXd& information, Eigen::VectorXd& vector) const {
+    const double variance = hold_sigma_ * hold_sigma_;
+    const Eigen::VectorXd from_start = directions_.leftCols(observed_).transpose() * corrected();
+    for (Eigen::Index i = 0; i < from_start.size(); ++i) {
+      const double weight = kCorrelation / (variance + from_start(i) * from_start(i));
+      information(i, i) += weight;
+      vector(i) -= weight * from_start(i);
+    }
   }
 
   // Turns about different axes add up to one about a third, which may be open. So it is the whole
@@ -246,6 +257,7 @@ class Aligner {
   std::vector<Surfel> surfels_;
   const SurfaceImage& view_;
   const FrustumIcpConfig& config_;
+  double hold_sigma_;
   double least_cosine_;
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();  // the prior, orthonormal
   Eigen::Isometry3d T_ = Eigen::Isometry3d::Identity();      // T_world_camera
@@ -270,7 +282,6 @@ std::vector<std::string> FrustumIcpConfig::validate() const {
     errors.push_back("max_normal_angle_deg must be above 0 and at most 90");
   }
   if (!(prior_sigma > 0.0)) errors.push_back("prior_sigma must be above 0 m");
-  if (!(hold_sigma >= 0.0)) errors.push_back("hold_sigma must be 0 m or more");
   if (!(noise_factor >= 0.0)) errors.push_back("noise_factor must not be negative");
   if (!(least_information >= 0.0) || !(least_information < 1.0)) {
     errors.push_back("least_information must be at least 0 and below 1");
@@ -279,11 +290,12 @@ std::vector<std::string> FrustumIcpConfig::validate() const {
 }
 
 Alignment align(std::vector<Surfel> surfels, const SurfaceImage& view,
-                const Eigen::Isometry3d& T_world_camera_prior, const FrustumIcpConfig& config) {
+                const Eigen::Isometry3d& T_world_camera_prior, const FrustumIcpConfig& config,
+                double hold_sigma) {
   if (!is_rigid(T_world_camera_prior)) {
     throw std::invalid_argument("frustum ICP: the prior is not rigid");
   }
-  return Aligner(std::move(surfels), view, config).run(T_world_camera_prior);
+  return Aligner(std::move(surfels), view, config, hold_sigma).run(T_world_camera_prior);
 }
 
 }  // namespace geomap::perception

@@ -22,8 +22,7 @@ struct FrustumIcpConfig {
   double gate = 0.05;                  // and in the end [m]; halves from step to step in between
   double max_normal_angle_deg = 40.0;  // between the normals of partners
   double prior_sigma = 0.05;           // what is known of the pose beforehand [m], see align()
-  double hold_sigma = 0.02;  // by which a measured motion may be off [m]; 0: held by nothing
-  double least_information = 0.0007;  // of a direction, against one that every surfel fixes
+  double least_information = 0.0007;   // of a direction, against one that every surfel fixes
 
   double noise_factor = 2.0;  // and against what noise of the normals feigns
 
@@ -37,7 +36,6 @@ struct FrustumIcpConfig {
     visitor("gate", self.gate);
     visitor("max_normal_angle_deg", self.max_normal_angle_deg);
     visitor("prior_sigma", self.prior_sigma);
-    visitor("hold_sigma", self.hold_sigma);
     visitor("least_information", self.least_information);
     visitor("noise_factor", self.noise_factor);
   }
@@ -74,8 +72,12 @@ struct Alignment {
 ///
 /// @param surfels of the map, any order that depends on the map alone; those outside the view cost
 /// little and change nothing.
+/// @param hold_sigma by which the prior may be off, if it was measured [m]: it is then one more
+/// measurement, which decides where the view tells little, and counts less the farther the view is
+/// from it. 0: only a start.
 /// @throws std::invalid_argument unless the prior is rigid.
 Alignment align(std::vector<Surfel> surfels, const SurfaceImage& view,
-                const Eigen::Isometry3d& T_world_camera_prior, const FrustumIcpConfig& config = {});
+                const Eigen::Isometry3d& T_world_camera_prior, const FrustumIcpConfig& config = {},
+                double hold_sigma = 0.0);
 
 }  // namespace geomap::perception

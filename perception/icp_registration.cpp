@@ -34,6 +34,7 @@ std::vector<std::string> IcpRegistrationConfig::validate() const {
   if (!(max_rms > 0.0)) errors.push_back("max_rms must be above 0 m");
   if (!(max_correction > 0.0)) errors.push_back("max_correction must be above 0 m");
   if (!(max_correction_deg > 0.0)) errors.push_back("max_correction_deg must be above 0");
+  if (!(hold_sigma >= 0.0)) errors.push_back("hold_sigma must be 0 m or more");
   if (!(margin >= 0.0) || !(margin <= 10.0)) errors.push_back("margin must be 0 to 10 m");
   return errors;
 }
@@ -64,12 +65,10 @@ RegistrationResult IcpRegistration::align(const FrameView& view, const VoxelMap&
   result.blocks_visited = selection.blocks_visited;
   // Where the prior is a guess, what the view tells weakly is still the better of the two.
   FrustumIcpConfig icp = config_.icp;
-  if (source == PriorSource::kGuessed) {
-    icp.noise_factor *= kGuessShare;
-    icp.hold_sigma = 0.0;
-  }
+  if (source == PriorSource::kGuessed) icp.noise_factor *= kGuessShare;
   result.alignment =
-      perception::align(std::move(selection.surfels), view.surfaces, T_world_camera_prior, icp);
+      perception::align(std::move(selection.surfels), view.surfaces, T_world_camera_prior, icp,
+                        source == PriorSource::kMeasured ? config_.hold_sigma : 0.0);
   result.reason = judge(result, source);
   result.accepted = result.reason == RegistrationReason::kAligned;
   if (result.accepted) result.T_world_camera = result.alignment->T_world_camera;

@@ -17,6 +17,7 @@ struct IcpRegistrationConfig {
   double max_rms = 0.02;             // [m]
   double max_correction = 0.4;       // of the prior's position [m]
   double max_correction_deg = 25.0;  // and of its direction
+  double hold_sigma = 0.02;          // by which a measured prior may be off [m], see align()
   double margin = 0.1;               // around the frustum, for what the prior may be off [m]
 
   std::vector<std::string> validate() const;
@@ -30,6 +31,7 @@ struct IcpRegistrationConfig {
     visitor("max_rms", self.max_rms);
     visitor("max_correction", self.max_correction);
     visitor("max_correction_deg", self.max_correction_deg);
+    visitor("hold_sigma", self.hold_sigma);
     visitor("margin", self.margin);
   }
 };

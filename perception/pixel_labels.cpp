@@ -87,7 +87,8 @@ std::vector<std::int16_t> PixelLabeler::label(const std::vector<geometry::Plane>
   for (int row = 0; row < cells_.rows(); ++row) {
     for (int column = 0; column < cells_.columns(); ++column) {
       if (cells_.cell(cells_.index(column, row)).count == 0.0) continue;
-      const int count = candidates_at(column, row, planes, cell_label, candidates.data());
+      const int count =
+          candidates_at(column, row, planes, cell_label, row_step > 1, candidates.data());
       if (count > 0) label_cell(column, row, candidates.data(), count, row_step, labels);
     }
   }
@@ -95,7 +96,7 @@ std::vector<std::int16_t> PixelLabeler::label(const std::vector<geometry::Plane>
 }
 
 int PixelLabeler::candidates_at(int column, int row, const std::vector<geometry::Plane>& planes,
-                                const std::vector<std::int16_t>& cell_label,
+                                const std::vector<std::int16_t>& cell_label, bool is_quick,
                                 Candidate* candidates) const {
   const auto own_cell = static_cast<std::size_t>(cells_.index(column, row));
   const std::int16_t own = cell_label[own_cell];
@@ -114,23 +115,30 @@ int PixelLabeler::candidates_at(int column, int row, const std::vector<geometry:
       const std::int16_t label = cell_label[static_cast<std::size_t>(cells_.index(c, r))];
       if (label == previous || label == kNoPlane) continue;
       previous = label;
+      if (is_quick && !agrees(planes[static_cast<std::size_t>(label)], own_cell)) continue;
       add(label);
     }
   }
-  for (std::size_t i = 0; i < planes.size(); ++i) {
+  for (std::size_t i = 0; !is_quick && own == kNoPlane && i < planes.size(); ++i) {
     if (is_on(planes[i], own_cell)) add(static_cast<std::int16_t>(i));
   }
   return count;
 }
 
 // Parts of a plane may be too narrow to be found by themselves: the readings of the cell lie on it,
-// and its normal, where it has one, agrees.
+// and its normal agrees.
 bool PixelLabeler::is_on(const geometry::Plane& plane, std::size_t cell) const {
   const Eigen::Vector3d point = cells_.cell(static_cast<int>(cell)).mean_point();
   const double cosine = std::abs(plane.normal.dot(point)) / point.z();
   const auto millimetres = static_cast<std::size_t>(std::lround(1000.0 * point.z()));
   const double allowed = kCellShare * (tolerance_[millimetres] * cosine + unevenness_);
   if (std::abs(plane.signed_distance(point)) > allowed) return false;
+  return normals_[cell].kind == CellNormal::Kind::kPlanar && agrees(plane, cell);
+}
+
+// A cell's own normal may say otherwise. Beside an edge it is that of one side, and blurred by
+// noise.
+bool PixelLabeler::agrees(const geometry::Plane& plane, std::size_t cell) const {
   const CellNormal& normal = normals_[cell];
   return normal.kind != CellNormal::Kind::kPlanar || normal.normal.dot(plane.normal) >= cosine_;
 }

@@ -37,7 +37,9 @@ class PixelLabeler {
   struct Candidate;
   struct Neighbourhood;
   int candidates_at(int column, int row, const std::vector<geometry::Plane>& planes,
-                    const std::vector<std::int16_t>& cell_label, Candidate* candidates) const;
+                    const std::vector<std::int16_t>& cell_label, bool is_quick,
+                    Candidate* candidates) const;
+  bool agrees(const geometry::Plane& plane, std::size_t cell) const;
   bool is_on(const geometry::Plane& plane, std::size_t cell) const;
   Candidate candidate_of(const geometry::Plane& plane, std::int16_t label, bool is_own, int column,
                          int row) const;

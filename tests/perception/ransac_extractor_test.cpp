@@ -350,7 +350,7 @@ TEST(RansacExtractorConfig, DefaultsAreValidAndEverySettingIsVisited) {
   EXPECT_TRUE(config.validate().empty());
   std::set<std::string> names;
   RansacExtractorConfig::visit(config, [&](const char* name, auto&) { names.insert(name); });
-  EXPECT_EQ(names.size(), 21u);
+  EXPECT_EQ(names.size(), 22u);
 }
 
 TEST(RansacExtractorConfig, NonsenseIsNamed) {
