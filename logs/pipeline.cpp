@@ -109,6 +109,7 @@ void Pipeline::merge_oldest() {
   record.times.hull = extracted.hull_seconds;
   record.noise_factor = extracted.noise.factor;
   record.planes = static_cast<int>(observation->planes.size());
+  record.candidates = applied.candidates;
   record.map_features = static_cast<int>(map_.features().size());
   if (applied.fault != mapping::EventFault::kNone) {
     ++rejected_[mapping::to_string(applied.fault)];

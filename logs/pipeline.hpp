@@ -25,10 +25,11 @@ namespace geomap::logs {
 struct KeyframeRecord {
   std::int64_t id = 0;  // utime [us]
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
-  std::int64_t pixels = 0;    // of its depth image
-  int planes = 0;             // extracted
-  int map_features = 0;       // in the map after it
-  double noise_factor = 1.0;  // of the depth noise model
+  std::int64_t pixels = 0;      // of its depth image
+  int planes = 0;               // extracted
+  int map_features = 0;         // in the map after it
+  std::int64_t candidates = 0;  // features of the map that its planes were compared with
+  double noise_factor = 1.0;    // of the depth noise model
   StageTimes times;
   perception::RegistrationResult registration;
 };

@@ -99,15 +99,21 @@ std::string tracking_rows(const Report& report) {
   return text;
 }
 
-// After each key frame: what a plot of the growing map needs (the paper's Figure 6).
+// Of each key frame: how the map had grown (the paper's Figure 6), and what the key frame cost.
 nlohmann::ordered_json growth_json(const Report& report) {
-  std::vector<int> extracted;
-  std::vector<int> features;
-  for (const KeyframeRecord& keyframe : report.keyframes) {
-    extracted.push_back(keyframe.planes + (extracted.empty() ? 0 : extracted.back()));
-    features.push_back(keyframe.map_features);
-  }
-  return {{"planes_extracted", extracted}, {"map_features", features}};
+  const auto of_each = [&](auto figure) {
+    auto values = nlohmann::ordered_json::array();
+    for (const KeyframeRecord& keyframe : report.keyframes) values.push_back(figure(keyframe));
+    return values;
+  };
+  return {
+      {"planes_extracted", of_each([sum = 0](const auto& k) mutable { return sum += k.planes; })},
+      {"map_features", of_each([](const auto& k) { return k.map_features; })},
+      {"blocks_visited", of_each([](const auto& k) { return k.registration.blocks_visited; })},
+      {"candidates_visited", of_each([](const auto& k) { return k.candidates; })},
+      {"registration_seconds", of_each([](const auto& k) { return k.times.registration; })},
+      {"merging_seconds", of_each([](const auto& k) { return k.times.merging; })},
+      {"total_seconds", of_each([](const auto& k) { return k.times.total(); })}};
 }
 
 nlohmann::ordered_json to_json(const Report& report) {

@@ -51,12 +51,12 @@ ApplyResult GeometricMap::apply(const MapEvent& event) {
   const bool appended = std::holds_alternative<std::shared_ptr<const Observation>>(event) &&
                         keyframes.rbegin()->first == *recorded.changed_from;
   if (appended) {
-    fold(*keyframes.rbegin()->second);
+    result.candidates = fold(*keyframes.rbegin()->second);
     result.change = store_.take_change();
     compact();
   } else {
     const FeatureSet before = store_.features();
-    fold_again_from(*recorded.changed_from);
+    result.candidates = fold_again_from(*recorded.changed_from);
     result.change = difference(before, store_.features());
   }
   ++revision_;
@@ -69,17 +69,19 @@ SavedMap GeometricMap::saved() const {
       base_,         history_.events()};
 }
 
-void GeometricMap::fold(const Observation& observation) {
+std::int64_t GeometricMap::fold(const Observation& observation) {
+  std::int64_t candidates = 0;
   const auto planes = static_cast<std::int32_t>(observation.planes.size());
   for (std::int32_t i = 0; i < planes; ++i) {
     if (auto feature = feature_of(observation, i, merge_config_)) {
-      merger_->insert(std::move(*feature), store_);
+      candidates += merger_->insert(std::move(*feature), store_);
     }
   }
   if (++folds_since_copy_ >= history_config_.copy_every) keep_copy(observation.keyframe);
+  return candidates;
 }
 
-void GeometricMap::fold_again_from(std::int64_t keyframe) {
+std::int64_t GeometricMap::fold_again_from(std::int64_t keyframe) {
   const EventHistory::Keyframes& keyframes = history_.keyframes();
   copies_.erase(copies_.lower_bound(keyframe), copies_.end());
   auto next = keyframes.begin();
@@ -91,8 +93,10 @@ void GeometricMap::fold_again_from(std::int64_t keyframe) {
     next = keyframes.upper_bound(copied_through);
   }
   folds_since_copy_ = 0;
-  for (; next != keyframes.end(); ++next) fold(*next->second);
+  std::int64_t candidates = 0;
+  for (; next != keyframes.end(); ++next) candidates += fold(*next->second);
   store_.take_change();
+  return candidates;
 }
 
 void GeometricMap::keep_copy(std::int64_t keyframe) {

@@ -36,6 +36,7 @@ struct HistoryConfig {
 struct ApplyResult {
   EventFault fault = EventFault::kNone;  // why it was refused; the map is then unchanged
   MapChange change;
+  std::int64_t candidates = 0;  // features that new ones were compared with, one counted each time
 };
 
 /// @brief Everything needed to go on with a map later: the result and the events it can be folded
@@ -71,8 +72,8 @@ class GeometricMap {
   SavedMap saved() const;
 
  private:
-  void fold(const Observation& observation);
-  void fold_again_from(std::int64_t keyframe);
+  std::int64_t fold(const Observation& observation);  // returns candidates, as ApplyResult
+  std::int64_t fold_again_from(std::int64_t keyframe);
   void keep_copy(std::int64_t keyframe);
   void compact();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "mapping/feature_store.hpp"
@@ -14,7 +15,8 @@ namespace geomap::mapping {
 class Merger {
  public:
   virtual ~Merger() = default;
-  virtual void insert(MapFeature feature, FeatureStore& store) const = 0;
+  /// @return how many features of the map it was compared with.
+  virtual std::int64_t insert(MapFeature feature, FeatureStore& store) const = 0;
 };
 
 /// @brief The merger of `config.mode`. @throws std::invalid_argument when the configuration is not

@@ -17,12 +17,19 @@ struct Partner {
   geometry::Polygon added;  // the younger one's polygon in the older one's frame
 };
 
+struct Search {
+  std::optional<Partner> partner;
+  std::int64_t candidates = 0;  // features that were looked at
+};
+
 // The feature of the map that shares most area with `feature`, of those that are the same surface.
-std::optional<Partner> find_partner(const MapFeature& feature, const FeatureStore& store,
-                                    const MergeConfig& config) {
-  std::optional<Partner> best;
+Search find_partner(const MapFeature& feature, const FeatureStore& store,
+                    const MergeConfig& config) {
+  Search search;
+  std::optional<Partner>& best = search.partner;
   const double reach = config.gap + config.max_distance;
   for (const FeatureId& id : store.near(feature.surface, reach)) {
+    ++search.candidates;
     const MapFeature& other = store.at(id);
     const bool other_is_older = other.id < feature.id;
     Similarity likeness =
@@ -32,7 +39,7 @@ std::optional<Partner> find_partner(const MapFeature& feature, const FeatureStor
       best = Partner{id, likeness.overlap, std::move(likeness.b_in_a)};
     }
   }
-  return best;
+  return search;
 }
 
 MapFeature merge(MapFeature older, const MapFeature& younger, const geometry::Polygon& added,
@@ -46,14 +53,19 @@ MapFeature merge(MapFeature older, const MapFeature& younger, const geometry::Po
 
 }  // namespace
 
-void MomentsMerger::insert(MapFeature feature, FeatureStore& store) const {
-  while (const std::optional<Partner> partner = find_partner(feature, store, config_)) {
-    const MapFeature other = store.at(partner->id);
-    store.erase(partner->id);
-    feature = other.id < feature.id ? merge(other, feature, partner->added, config_)
-                                    : merge(feature, other, partner->added, config_);
+std::int64_t MomentsMerger::insert(MapFeature feature, FeatureStore& store) const {
+  Search search = find_partner(feature, store, config_);
+  std::int64_t candidates = search.candidates;
+  while (search.partner) {
+    const MapFeature other = store.at(search.partner->id);
+    store.erase(search.partner->id);
+    feature = other.id < feature.id ? merge(other, feature, search.partner->added, config_)
+                                    : merge(feature, other, search.partner->added, config_);
+    search = find_partner(feature, store, config_);
+    candidates += search.candidates;
   }
   store.put(std::move(feature));
+  return candidates;
 }
 
 }  // namespace geomap::mapping

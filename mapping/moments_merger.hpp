@@ -11,7 +11,7 @@ namespace geomap::mapping {
 class MomentsMerger : public Merger {
  public:
   explicit MomentsMerger(const MergeConfig& config) : config_(config) {}
-  void insert(MapFeature feature, FeatureStore& store) const override;
+  std::int64_t insert(MapFeature feature, FeatureStore& store) const override;
 
  private:
   MergeConfig config_;

@@ -67,7 +67,8 @@ MapFeature merge(const MapFeature& older, const MapFeature& younger) {
 
 }  // namespace
 
-void PaperMerger::insert(MapFeature feature, FeatureStore& store) const {
+std::int64_t PaperMerger::insert(MapFeature feature, FeatureStore& store) const {
+  const auto compared = static_cast<std::int64_t>(store.features().size());
   std::vector<FeatureId> candidates;
   for (const auto& [id, other] : store.features()) {  // d at the origin says nothing of nearness
     if (coefficients_agree(feature, *other, config_) && intersects(feature, *other)) {
@@ -80,6 +81,7 @@ void PaperMerger::insert(MapFeature feature, FeatureStore& store) const {
     feature = other.id < feature.id ? merge(other, feature) : merge(feature, other);
   }
   store.put(std::move(feature));
+  return compared;
 }
 
 }  // namespace geomap::mapping

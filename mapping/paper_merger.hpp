@@ -14,7 +14,7 @@ namespace geomap::mapping {
 class PaperMerger : public Merger {
  public:
   explicit PaperMerger(const MergeConfig& config) : config_(config) {}
-  void insert(MapFeature feature, FeatureStore& store) const override;
+  std::int64_t insert(MapFeature feature, FeatureStore& store) const override;
 
  private:
   MergeConfig config_;

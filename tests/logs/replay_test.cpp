@@ -97,6 +97,29 @@ TEST_F(Replay, TheReportTellsHowTheMapGrewOverTheKeyFrames) {
   EXPECT_EQ(json["map_features"], features.back());
 }
 
+TEST_F(Replay, TheReportTellsWhatEachKeyFrameCost) {
+  const ReplayResult result = replay_events(testing::synthetic_log(20));
+  const auto growth = nlohmann::json::parse(read_file(path("out/report.json")))["growth"];
+  const std::vector<KeyframeRecord>& keyframes = result.report.keyframes;
+  for (const char* key : {"blocks_visited", "candidates_visited", "registration_seconds",
+                          "merging_seconds", "total_seconds"}) {
+    ASSERT_EQ(growth[key].size(), keyframes.size()) << key;
+  }
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    EXPECT_EQ(growth["blocks_visited"][i], keyframes[i].registration.blocks_visited) << i;
+    EXPECT_EQ(growth["candidates_visited"][i], keyframes[i].candidates) << i;
+    EXPECT_EQ(growth["registration_seconds"][i], keyframes[i].times.registration) << i;
+    EXPECT_EQ(growth["merging_seconds"][i], keyframes[i].times.merging) << i;
+    EXPECT_EQ(growth["total_seconds"][i], keyframes[i].times.total()) << i;
+  }
+  // The first finds nothing to look at; every later plane is compared with itself at least.
+  EXPECT_EQ(keyframes[0].registration.blocks_visited, 0);
+  for (std::size_t i = 1; i < keyframes.size(); ++i) {
+    EXPECT_GT(keyframes[i].registration.blocks_visited, 0) << i;
+    EXPECT_GE(keyframes[i].candidates, keyframes[i].planes) << i;
+  }
+}
+
 TEST_F(Replay, TheSavedMapIsTheMapOfTheReport) {
   const ReplayResult result = replay_events(testing::synthetic_log(12));
   const mapping::SavedMap saved = mapping::load_map(path("out/map.lcmlog"));

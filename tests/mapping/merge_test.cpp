@@ -163,6 +163,25 @@ TEST(PaperMerger, ComparesDistancesAtTheWorldsOrigin) {
   EXPECT_EQ(count("moments"), 1u);
 }
 
+TEST(Merger, ComparesWithWhatIsNearButThePapersWithEverything) {
+  const auto compared_with = [&](const char* mode) {
+    MergeConfig config;
+    config.mode = mode;
+    FeatureStore store;
+    const auto merger = make_merger(config);
+    for (int i = 0; i < 20; ++i) {
+      const Vector3d there(10.0 * i, 0, 0);
+      const Eigen::Isometry3d camera = testing::look_at(there + Vector3d(0, -1, 3), there);
+      merger->insert(feature_of_rectangle(floor_at(there), i, camera), store);
+    }
+    EXPECT_EQ(store.features().size(), 20u) << mode;
+    return merger->insert(feature_of_rectangle(floor_at({0, 0, 0}), 20), store);
+  };
+  // Once to find its like; fused with it, it looks again for what the two may bridge.
+  EXPECT_EQ(compared_with("moments"), 1);
+  EXPECT_EQ(compared_with("paper"), 20);
+}
+
 TEST(Merger, RefusesAConfigurationThatIsNotValid) {
   MergeConfig config;
   config.mode = "magic";
