@@ -7,8 +7,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <stdexcept>
 
 #include "logs/log_input.hpp"
+#include "messaging/program.hpp"
 #include "messaging/progress_bar.hpp"
 #include "statistics.hpp"
 
@@ -64,20 +66,38 @@ std::vector<MemoryShare> memory_of(const logs::Pipeline& pipeline, double heap) 
           {"all", heap}};
 }
 
+// Processor time of the parts of a key frame, told apart by when the pipeline calls back.
+class Meter {
+ public:
+  void start() { mark_ = processor_milliseconds(); }
+  void note_tracked() { tracking_ = lap(); }
+  void note_merged(RoomCost& sum) {
+    const double planes_time = lap();
+    sum.tracking += tracking_;
+    sum.planes_time += planes_time;
+    sum.total += tracking_ + planes_time;
+  }
+
+ private:
+  double lap() {
+    const double before = mark_;
+    start();
+    return mark_ - before;
+  }
+  double mark_ = 0.0;
+  double tracking_ = 0.0;
+};
+
 void add(RoomCost& sum, const KeyframeRecord& record) {
   ++sum.keyframes;
   sum.planes_extracted += record.planes;
   sum.blocks += record.registration.blocks_visited;
   sum.candidates += static_cast<double>(record.candidates);
-  sum.registration += 1e3 * record.times.registration;
-  sum.extraction += 1e3 * (record.times.extraction + record.times.hull);
-  sum.merging += 1e3 * record.times.merging;
-  sum.total += 1e3 * record.times.total();
 }
 
-constexpr std::array kMeans = {
-    &RoomCost::planes_extracted, &RoomCost::blocks,  &RoomCost::candidates, &RoomCost::registration,
-    &RoomCost::extraction,       &RoomCost::merging, &RoomCost::total};
+constexpr std::array kMeans = {&RoomCost::planes_extracted, &RoomCost::blocks,
+                               &RoomCost::candidates,       &RoomCost::tracking,
+                               &RoomCost::planes_time,      &RoomCost::total};
 
 }  // namespace
 
@@ -97,6 +117,10 @@ RoomsRun run_rooms(const std::string& log, const RoomsWay& way, const messaging:
   const double heap_before = heap_bytes();
   RoomsRun run;
   std::optional<std::int64_t> start;
+  std::map<int, std::vector<double>> merging;  // [ms], by room
+  Meter meter;
+  pipeline.on_tracked([&](const geomap::rgbd_frame_t&, const perception::Tracked&,
+                          const Eigen::Isometry3d&) { meter.note_tracked(); });
   pipeline.on_keyframe(
       [&](const KeyframeRecord& record, const mapping::Observation&, const mapping::MapChange&) {
         if (!start) start = record.id;
@@ -105,19 +129,25 @@ RoomsRun run_rooms(const std::string& log, const RoomsWay& way, const messaging:
           run.rooms.emplace_back().room = room;
         }
         RoomCost& cost = run.rooms.back();
+        meter.note_merged(cost);
         add(cost, record);
+        merging[room].push_back(1e3 * record.times.merging);
         cost.planes = record.map_features;
         cost.heap_bytes = heap_bytes() - heap_before;
+        meter.start();
       });
   messaging::LogReader reader(log);
   messaging::ProgressBar progress("frames", 0);
   while (const auto event = reader.next()) {
+    if (messaging::stop_requested()) throw std::runtime_error("stopped");
+    meter.start();
     input.handle(*event);
     progress.update(pipeline.frames(), pipeline.frames() * reader.size() / reader.position());
   }
   pipeline.finish();
   for (RoomCost& cost : run.rooms) {
     for (const auto figure : kMeans) cost.*figure /= cost.keyframes;
+    cost.merging = median(merging[cost.room]);
   }
   run.keyframes = static_cast<int>(pipeline.keyframes().size());
   run.planes = static_cast<int>(pipeline.map().features().size());
@@ -131,13 +161,16 @@ std::vector<RoomCost> medians_by_row(const RoomsRun& run, const RoomsWay& way) {
     if (way.is_comparable(cost.room)) rows[way.row_of(cost.room)].push_back(cost);
   }
   std::vector<RoomCost> medians;
-  for (const auto& [row, rooms] : rows) {
+  for (const auto& entry : rows) {
+    const std::vector<RoomCost>& rooms = entry.second;
     RoomCost middle = rooms[rooms.size() / 2];
-    for (const auto figure : kMeans) {
+    const auto take_median = [&](double RoomCost::*figure) {
       std::vector<double> values;
       for (const RoomCost& room : rooms) values.push_back(room.*figure);
       middle.*figure = median(values);
-    }
+    };
+    for (const auto figure : kMeans) take_median(figure);
+    take_median(&RoomCost::merging);
     medians.push_back(middle);
   }
   return medians;

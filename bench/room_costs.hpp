@@ -27,9 +27,12 @@ struct RoomCost {
   int room = 0;
   int keyframes = 0;
   double planes_extracted = 0.0;
-  double blocks = 0.0;      // of the point map, visited
-  double candidates = 0.0;  // features that planes were compared with
-  double registration = 0.0, extraction = 0.0, merging = 0.0, total = 0.0;  // [ms]
+  double blocks = 0.0;       // of the point map, visited
+  double candidates = 0.0;   // features that planes were compared with
+  double tracking = 0.0;     // processor time, decoding and reading included [ms]
+  double planes_time = 0.0;  // extraction and merging, processor time [ms]
+  double total = 0.0;        // both
+  double merging = 0.0;      // of it, by the clock on the wall: median over the key frames [ms]
 
   int planes = 0;           // in the map when the robot left it
   double heap_bytes = 0.0;  // in use then

@@ -15,14 +15,13 @@ using namespace geomap;
 using bench::RoomCost;
 
 void print_rows(const std::vector<RoomCost>& rows) {
-  std::printf("%7s %11s %8s %11s %9s | %12s %10s %8s %8s %6s\n", "planes", "planes seen", "blocks",
-              "candidates", "per plane", "registration", "extraction", "merging", "all [ms]",
-              "to 1");
+  std::printf("%7s %11s %8s %11s %9s | %9s %7s %9s %9s %6s\n", "planes", "planes seen", "blocks",
+              "candidates", "per plane", "tracking", "planes", "(merging)", "all [ms]", "to 1");
   for (const RoomCost& row : rows) {
-    std::printf("%7d %11.1f %8.0f %11.1f %9.2f | %12.2f %10.2f %8.2f %8.2f %5.2fx\n", row.planes,
+    std::printf("%7d %11.1f %8.0f %11.1f %9.2f | %9.2f %7.2f %9.2f %9.2f %5.2fx\n", row.planes,
                 row.planes_extracted, row.blocks, row.candidates,
-                row.candidates / row.planes_extracted, row.registration, row.extraction,
-                row.merging, row.total, row.total / rows.front().total);
+                row.candidates / row.planes_extracted, row.tracking, row.planes_time, row.merging,
+                row.total, row.total / rows.front().total);
   }
 }
 

@@ -26,7 +26,7 @@ struct Figure {
 
 constexpr std::array kFigures = {Figure{"blocks visited", &RoomCost::blocks, "#1f5fb4"},
                                  Figure{"candidates visited", &RoomCost::candidates, "#d9661f"},
-                                 Figure{"time", &RoomCost::total, "#2e8b57"}};
+                                 Figure{"processor time", &RoomCost::total, "#2e8b57"}};
 
 void draw_legend(SvgCanvas& canvas) {
   Vector2d at(kMargin, kMargin);

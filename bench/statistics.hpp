@@ -19,18 +19,20 @@ inline double quantile(std::vector<double> values, double share) {
 }
 inline double median(const std::vector<double>& values) { return quantile(values, 0.5); }
 
-/// @brief Processor time of this thread that `work` takes [ms]: on an idle machine the wall's, and
-/// hardly more on a busy one.
+/// @brief Processor time of this thread so far [ms]: on an idle machine the wall's, and hardly more
+/// on a busy one.
+inline double processor_milliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+/// @brief Processor time that `work` takes [ms].
 template <typename Work>
 double milliseconds(Work&& work) {
-  const auto now = [] {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-  };
-  const double start = now();
+  const double start = processor_milliseconds();
   work();
-  return now() - start;
+  return processor_milliseconds() - start;
 }
 
 }  // namespace geomap::bench

@@ -6,6 +6,7 @@
 
 #include "drivers/data_set_writer.hpp"
 #include "drivers/frame_source.hpp"
+#include "drivers/greatest_speed.hpp"
 #include "geometry/angles.hpp"
 
 namespace geomap::drivers {
@@ -102,33 +103,12 @@ std::vector<fs::path> shipped_files() {
   return files;
 }
 
-struct Speed {
-  double metres = 0.0;   // of the base [1/s]
-  double degrees = 0.0;  // of the camera's direction [1/s]
-};
-
-Speed greatest_speed(const CameraTrajectory& trajectory) {
-  constexpr double kStep = 0.01;  // [s]
-  Speed greatest;
-  for (double t = 0.0; t < trajectory.duration(); t += kStep) {
-    const RobotPose before = trajectory.at(t);
-    const RobotPose after = trajectory.at(t + kStep);
-    const Eigen::Isometry3d moved = before.T_world_body.inverse() * after.T_world_body;
-    const Eigen::Isometry3d turned = (before.T_world_body * before.T_body_camera).inverse() *
-                                     (after.T_world_body * after.T_body_camera);
-    const double angle = Eigen::AngleAxisd(turned.linear()).angle();
-    greatest.metres = std::max(greatest.metres, moved.translation().norm() / kStep);
-    greatest.degrees = std::max(greatest.degrees, geometry::degrees(angle) / kStep);
-  }
-  return greatest;
-}
-
 TEST(ShippedTrajectories, LoadUnderTheirNamesAndAreNoFasterThanARobot) {
   ASSERT_GE(shipped_files().size(), 2U);
   for (const fs::path& file : shipped_files()) {
     const CameraTrajectory trajectory(read_robot_trajectory(file));
     EXPECT_EQ(trajectory.name() + ".yaml", file.filename()) << file;
-    const Speed speed = greatest_speed(trajectory);
+    const testing::Speed speed = testing::greatest_speed(trajectory);
     EXPECT_LE(speed.metres, 0.6) << file;
     EXPECT_LE(speed.degrees, 60.0) << file;
   }
@@ -136,14 +116,14 @@ TEST(ShippedTrajectories, LoadUnderTheirNamesAndAreNoFasterThanARobot) {
 
 TEST(ShippedTrajectories, TheSweepIsSlowAndTheTurnIsAWholeOne) {
   const fs::path folder = GEOMAP_SOURCE_DIR "/config/trajectories";
-  const Speed sweep =
-      greatest_speed(CameraTrajectory(read_robot_trajectory(folder / "sweep.yaml")));
+  const testing::Speed sweep =
+      testing::greatest_speed(CameraTrajectory(read_robot_trajectory(folder / "sweep.yaml")));
   EXPECT_LE(sweep.metres, 0.3);
   EXPECT_LE(sweep.degrees, 25.0);
   const CameraTrajectory turn(read_robot_trajectory(folder / "turn360.yaml"));
   EXPECT_EQ(turn.duration(), 90.0);
   EXPECT_EQ(turn.waypoint_at(90.0).yaw - turn.waypoint_at(0.0).yaw, radians(360.0));
-  EXPECT_EQ(greatest_speed(turn).metres, 0.0);
+  EXPECT_EQ(testing::greatest_speed(turn).metres, 0.0);
 }
 
 }  // namespace

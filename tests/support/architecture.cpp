@@ -31,7 +31,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
 
 constexpr std::array<std::string_view, 5> kGlueSuffixes = {"_process", "_messages", "_client",
                                                            "_journal", "_main"};
-const std::set<std::string> kGlueFolders = {"messaging", "logs", "tests"};
+const std::set<std::string> kGlueFolders = {"messaging", "logs", "bench", "tests"};
 const std::set<std::string> kLcmFolders = {"lcm", "lcmtypes", "geomap", "bot_core", "kinect"};
 const std::set<std::string> kHeavyFolders = {"pcl",    "CGAL",     "CLI",
                                              "spdlog", "nlohmann", "yaml-cpp"};
@@ -98,7 +98,8 @@ std::string fault_of(const Source& source, const Include& include) {
   }
   if (!is_glue(source.path)) {
     const bool lcm = kLcmFolders.contains(folder) || folder == "messaging";
-    if (lcm) return "only processes, messages, clients, journals, mains and logs/ may know LCM";
+    if (lcm)
+      return "only processes, messages, clients, journals, mains, logs/ and bench/ may know LCM";
     if (kMayInclude.contains(folder) && is_glue(include.path)) {
       return "an algorithm must not include " + include.path + ", which knows LCM";
     }
