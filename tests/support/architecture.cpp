@@ -98,8 +98,9 @@ std::string fault_of(const Source& source, const Include& include) {
   }
   if (!is_glue(source.path)) {
     const bool lcm = kLcmFolders.contains(folder) || folder == "messaging";
-    if (lcm)
+    if (lcm) {
       return "only processes, messages, clients, journals, mains, logs/ and bench/ may know LCM";
+    }
     if (kMayInclude.contains(folder) && is_glue(include.path)) {
       return "an algorithm must not include " + include.path + ", which knows LCM";
     }
