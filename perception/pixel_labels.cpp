@@ -108,20 +108,26 @@ int PixelLabeler::candidates_at(int column, int row, const std::vector<geometry:
     candidates[count++] =
         candidate_of(planes[static_cast<std::size_t>(label)], label, label == own, column, row);
   };
-  std::int16_t previous = kNoPlane;
-  for (int r = std::max(0, row - kReach); r <= std::min(cells_.rows() - 1, row + kReach); ++r) {
-    const int c_end = std::min(cells_.columns() - 1, column + kReach);
-    for (int c = std::max(0, column - kReach); c <= c_end; ++c) {
-      const std::int16_t label = cell_label[static_cast<std::size_t>(cells_.index(c, r))];
-      if (label == previous || label == kNoPlane) continue;
-      previous = label;
-      if (is_quick && !agrees(planes[static_cast<std::size_t>(label)], own_cell)) continue;
-      add(label);
+  const auto add_neighbours = [&](bool agreeing) {
+    std::int16_t previous = kNoPlane;
+    for (int r = std::max(0, row - kReach); r <= std::min(cells_.rows() - 1, row + kReach); ++r) {
+      const int c_end = std::min(cells_.columns() - 1, column + kReach);
+      for (int c = std::max(0, column - kReach); c <= c_end; ++c) {
+        const std::int16_t label = cell_label[static_cast<std::size_t>(cells_.index(c, r))];
+        if (label == previous || label == kNoPlane) continue;
+        previous = label;
+        if (agrees(planes[static_cast<std::size_t>(label)], own_cell) == agreeing) add(label);
+      }
     }
-  }
-  for (std::size_t i = 0; !is_quick && own == kNoPlane && i < planes.size(); ++i) {
+  };
+  add_neighbours(true);
+  if (is_quick) return count;
+  for (std::size_t i = 0; own == kNoPlane && i < planes.size(); ++i) {
     if (is_on(planes[i], own_cell)) add(static_cast<std::int16_t>(i));
   }
+  // Beside an edge the normal is that of one side, and blurred by noise: the other side may
+  // compete.
+  if (count > 0) add_neighbours(false);
   return count;
 }
 
