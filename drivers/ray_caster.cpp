@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -15,6 +16,7 @@ using Eigen::Vector3d;
 
 constexpr float kNearest = 1e-4F;   // [m] along the optical axis
 constexpr double kTouching = 1e-3;  // [m] before the point that is looked at
+constexpr int kBeside = 4;          // triangles
 constexpr float kFar = 1e6F;        // [m]
 
 void set_ray(RTCRay& ray, const Vector3d& origin, const Vector3d& direction, float near,
@@ -100,6 +102,7 @@ void RayCaster::cast(const geometry::CameraModel& camera, const Eigen::Isometry3
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  std::vector<int> picked(view.triangle.size());
   std::size_t pixel = 0;
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
@@ -111,22 +114,90 @@ void RayCaster::cast(const geometry::CameraModel& camera, const Eigen::Isometry3
                    sizeof(RTCRayHit));
     for (int u = 0; u < camera.width; ++u, ++pixel) {
       const RTCHit& hit = row[static_cast<std::size_t>(u)].hit;
-      if (hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-        view.triangle[pixel] = -1;
-        view.depth.depth[pixel] = 0.0;
-        view.depth.cosine[pixel] = 0.0F;
-        continue;
-      }
-      // The ray's third component in the camera frame is 1, so its length is the depth.
-      const Eigen::Vector4d& plane = planes_[hit.primID];
+      picked[pixel] = hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1 : static_cast<int>(hit.primID);
+    }
+  }
+  pixel = 0;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u, ++pixel) {
       const Vector3d ray = camera.ray(u, v);
-      const double along = plane.head<3>().dot(rotation * ray);
-      const double height = plane.head<3>().dot(origin) + plane.w();
-      view.triangle[pixel] = static_cast<std::int32_t>(hit.primID);
-      view.depth.depth[pixel] = along == 0.0 ? 0.0 : -height / along;
+      const Vector3d direction = rotation * ray;
+      const int triangle = settled(picked, camera, u, v, origin, direction);
+      view.triangle[pixel] = triangle;
+      view.depth.depth[pixel] = 0.0;
+      view.depth.cosine[pixel] = 0.0F;
+      if (triangle < 0) continue;
+      // The ray's third component in the camera frame is 1, so its length is the depth.
+      const double along = planes_[static_cast<std::size_t>(triangle)].head<3>().dot(direction);
+      view.depth.depth[pixel] = depth_of(triangle, origin, direction);
       view.depth.cosine[pixel] = static_cast<float>(std::abs(along) / ray.norm());
     }
   }
+}
+
+double RayCaster::depth_of(int triangle, const Vector3d& origin, const Vector3d& direction) const {
+  const Eigen::Vector4d& plane = planes_[static_cast<std::size_t>(triangle)];
+  const double along = plane.head<3>().dot(direction);
+  const double height = plane.head<3>().dot(origin) + plane.w();
+  return along == 0.0 ? 0.0 : std::max(0.0, -height / along);
+}
+
+// Embree works in float, and beside an edge its choice depends on the processor: there, what
+// neighbouring pixels see is tested once more in double.
+int RayCaster::settled(const std::vector<int>& picked, const geometry::CameraModel& camera, int u,
+                       int v, const Vector3d& origin, const Vector3d& direction) const {
+  const int own = picked[static_cast<std::size_t>(v * camera.width + u)];
+  std::array<int, 9> candidates{own};
+  std::size_t count = 1;
+  for (int j = std::max(0, v - 1); j <= std::min(camera.height - 1, v + 1); ++j) {
+    for (int i = std::max(0, u - 1); i <= std::min(camera.width - 1, u + 1); ++i) {
+      const int other = picked[static_cast<std::size_t>(j * camera.width + i)];
+      const auto end = candidates.begin() + static_cast<std::ptrdiff_t>(count);
+      if (std::find(candidates.begin(), end, other) == end) candidates[count++] = other;
+    }
+  }
+  if (count == 1) return own;
+  int nearest = -1;
+  double least = 0.0;
+  bool is_open = false;
+  const auto consider = [&](int triangle) {
+    if (!is_inside(triangle, origin, direction)) return;
+    const double depth = depth_of(triangle, origin, direction);
+    const bool is_nearer = nearest < 0 || depth < least || (depth == least && triangle < nearest);
+    if (depth <= kNearest || !is_nearer) return;
+    nearest = triangle;
+    least = depth;
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    const int seen = candidates[k];
+    is_open |= seen < 0;
+    if (seen < 0) continue;
+    consider(seen);
+    // On what is round, facets may be narrower than a pixel: those beside are the next in the list.
+    const Scene::Triangle& triangle = scene_.triangles[static_cast<std::size_t>(seen)];
+    if (scene_.surfaces[triangle.surface].face >= 0) continue;
+    const int last = static_cast<int>(scene_.triangles.size()) - 1;
+    for (int t = std::max(0, seen - kBeside); t <= std::min(last, seen + kBeside); ++t) {
+      if (scene_.triangles[static_cast<std::size_t>(t)].surface == triangle.surface) consider(t);
+    }
+  }
+  return nearest >= 0 || is_open ? nearest : own;
+}
+
+// Which side of its three edges the ray passes. An edge is looked at from the same end whichever of
+// its two triangles asks, so that nothing falls between them.
+bool RayCaster::is_inside(int triangle, const Vector3d& origin, const Vector3d& direction) const {
+  const auto& corners = scene_.triangles[static_cast<std::size_t>(triangle)].vertices;
+  int left = 0, right = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t from = corners[k], to = corners[(k + 1) % 3];
+    const Vector3d a = scene_.vertices[std::min(from, to)] - origin;
+    const Vector3d b = scene_.vertices[std::max(from, to)] - origin;
+    const double side = direction.dot(a.cross(b)) * (from < to ? 1.0 : -1.0);
+    left += side > 0.0 ? 1 : 0;
+    right += side < 0.0 ? 1 : 0;
+  }
+  return left == 0 || right == 0;
 }
 
 bool RayCaster::is_free(const Vector3d& from, const Vector3d& to) const {

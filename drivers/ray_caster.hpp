@@ -21,7 +21,9 @@ struct SceneView {
 /// @brief Casts rays into a scene with Embree.
 ///
 /// Embree says only which triangle a ray hits; where, is computed here in double from the
-/// triangle's plane, because Embree's own distance differs in its last bits between processors.
+/// triangle's plane, because Embree's own distance differs in its last bits between processors. So
+/// may its choice beside an edge: there it is made again, in double, among what the pixels around
+/// see.
 class RayCaster {
  public:
   /// @param scene must outlive this object.
@@ -41,6 +43,13 @@ class RayCaster {
 
  private:
   struct Embree;
+
+  double depth_of(int triangle, const Eigen::Vector3d& origin,
+                  const Eigen::Vector3d& direction) const;
+  int settled(const std::vector<int>& picked, const geometry::CameraModel& camera, int u, int v,
+              const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
+  bool is_inside(int triangle, const Eigen::Vector3d& origin,
+                 const Eigen::Vector3d& direction) const;
 
   const Scene& scene_;
   std::vector<Eigen::Vector4d> planes_;  // normal and d of each triangle, n·x + d = 0, world
