@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/merge_planes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -24,6 +25,12 @@ constexpr double kShellAngleRatio = 2.0;  // largest angle, over that of joining
 // A plane with less than this share of the readings of the cells it appears in is speckle between
 // others: dropped, so that they can take its pixels.
 constexpr double kLeastDensity = 0.5;
+
+// A plane across an edge that noise has made up: the cells it took lie on the planes beside it
+// nearly as well as noise lets them. Mean square of what they are off, over that of noise; far more
+// than this is cut off, so that a few cells do not decide.
+constexpr double kMadeUp = 3.0;
+constexpr double kFarOff = 16.0;
 
 struct Surface {
   PlaneSums sums;
@@ -100,9 +107,63 @@ bool join(Surface& a, const Surface& b, const DepthTolerance& tolerance, double 
   return false;
 }
 
+// What a cell's mean is off a plane along its ray, squared, over the noise of the mean.
+double squares_off(const PlaneCell& cell, const geometry::Plane& plane,
+                   const DepthTolerance& tolerance) {
+  const Eigen::Vector3d mean = cell.sums.moments.first / cell.sums.moments.weight;
+  const double cosine = std::abs(plane.normal.dot(mean)) / mean.z();
+  const double sigma = cosine * tolerance.noise.sigma(mean.z());
+  const double off = plane.signed_distance(mean);
+  return std::min(kFarOff, off * off * cell.sums.pixels / (sigma * sigma));
+}
+
+// Of a surface's cells: which of the others, larger by far and touching it, explain them.
+bool is_made_up(std::size_t own, const std::vector<Surface>& surfaces, const Contacts& contacts,
+                const std::vector<const PlaneCell*>& cells, const DepthTolerance& tolerance) {
+  std::vector<const geometry::Plane*> others;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const auto touching =
+        contacts.find(std::minmax<int>(static_cast<int>(own), static_cast<int>(i)));
+    if (i == own || !surfaces[i].fit || touching == contacts.end()) continue;
+    if (surfaces[own].sums.pixels < kShellPixels * surfaces[i].sums.pixels) {
+      others.push_back(&surfaces[i].fit->plane);
+    }
+  }
+  if (others.size() < 2) return false;
+  double sum = 0.0;
+  for (const PlaneCell* cell : cells) {
+    double least = kFarOff;
+    for (const geometry::Plane* plane : others) {
+      least = std::min(least, squares_off(*cell, *plane, tolerance));
+    }
+    sum += least;
+  }
+  return sum < kMadeUp * static_cast<double>(cells.size());
+}
+
 int find(const std::vector<int>& joined_to, int i) {
   while (joined_to[static_cast<std::size_t>(i)] != i) i = joined_to[static_cast<std::size_t>(i)];
   return i;
+}
+
+void drop_made_up(std::vector<Surface>& surfaces, const std::vector<int>& joined_to,
+                  const Contacts& contacts, const PlanePixels& pixels,
+                  const DepthTolerance& tolerance) {
+  std::vector<std::vector<const PlaneCell*>> cells(surfaces.size());
+  std::vector<Surface> roots = surfaces;  // without what has been joined to others
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const auto root = static_cast<std::size_t>(find(joined_to, static_cast<int>(i)));
+    if (root != i) roots[i].fit.reset();
+    for (const PlaneCell& cell : pixels.cells[i]) cells[root].push_back(&cell);
+  }
+  Contacts between;
+  for (const auto& [pair, count] : contacts) {
+    const int a = find(joined_to, pair.first), b = find(joined_to, pair.second);
+    if (a != b) between[std::minmax(a, b)] += count;
+  }
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (roots[i].fit && is_made_up(i, roots, between, cells[i], tolerance)) surfaces[i].fit.reset();
+  }
 }
 
 }  // namespace
@@ -135,6 +196,8 @@ FittedPlanes fit_and_merge(const DepthCells& cells, const PlanePixels& pixels,
       }
     }
   }
+
+  drop_made_up(surfaces, joined_to, contacts, pixels, tolerance);
 
   FittedPlanes result;
   std::vector<std::int16_t> index(surfaces.size(), kNoPlane);
