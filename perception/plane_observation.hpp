@@ -15,7 +15,7 @@ struct ObservationSettings {
   int min_pixels = 200;
   double min_fill = 0.4;             // share of the outline's area that pixels cover
   double max_rms_ratio = 1.6;        // rms over what noise model and systematic error expect
-  double max_curvature = 4.0;        // of what counts as a plane [1/m]
+  double max_curvature = 3.0;        // of what counts as a plane [1/m]
   double min_view_cosine = 0.1;      // |n·ray|: views more grazing than that do not decide a side
   double max_normal_error = 0.1;     // standard deviation of the normal [rad]
   double alpha = 0.06;               // of the concave hull [m]

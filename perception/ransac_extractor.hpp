@@ -34,7 +34,7 @@ struct RansacExtractorConfig {
   int min_pixels = 200;        // of a plane
   double min_fill = 0.4;       // share of the outline's area that pixels cover
   double max_rms_ratio = 1.6;  // rms of a plane over what the noise model expects
-  double max_curvature = 4.0;  // of a plane [1/m]; beyond, it is a cylinder or a ball
+  double max_curvature = 3.0;  // of a plane [1/m]; beyond, it is a cylinder or a ball
 
   std::string orientation = "any";  // any, horizontal, vertical: which planes are wanted (paper)
   double max_tilt_deg = 10.0;       // from exactly horizontal or vertical
