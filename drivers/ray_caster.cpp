@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace geomap::drivers {
@@ -16,8 +15,8 @@ using Eigen::Vector3d;
 
 constexpr float kNearest = 1e-4F;   // [m] along the optical axis
 constexpr double kTouching = 1e-3;  // [m] before the point that is looked at
-constexpr int kBeside = 4;          // triangles
 constexpr float kFar = 1e6F;        // [m]
+constexpr int kBeside = 4;          // triangles in the list before and behind one
 
 void set_ray(RTCRay& ray, const Vector3d& origin, const Vector3d& direction, float near,
              float far) {

@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "geometry/angles.hpp"
-#include "geometry/plane_frame.hpp"
 #include "geometry/polygon_clip.hpp"
-#include "geometry/polygon_simplify.hpp"
 
 namespace geomap::drivers {
 namespace {
@@ -104,25 +102,25 @@ void TrueVisibility::look_at(Side& side, const Eigen::Isometry3d& T_world_camera
   if (side.normal.dot(eye - side.face.corner) <= 0.0 || side.box.exteriorDistance(eye) > reach) {
     return;
   }
+  const Eigen::Isometry3d T_camera_world = T_world_camera.inverse();
   std::size_t cell = 0;
   for (int row = 0; row < side.rows; ++row) {
     for (int column = 0; column < side.columns; ++column, ++cell) {
       if (side.seen[cell] != 0 || side.is_air(column, row)) continue;
-      side.seen[cell] = is_seen(side, side.cell_center(column, row), T_world_camera) ? 1 : 0;
+      side.seen[cell] = is_seen(side, side.cell_center(column, row), eye, T_camera_world) ? 1 : 0;
     }
   }
 }
 
-bool TrueVisibility::is_seen(const Side& side, const Vector3d& point,
-                             const Eigen::Isometry3d& T_world_camera) const {
-  const Vector3d in_camera = T_world_camera.inverse() * point;
+bool TrueVisibility::is_seen(const Side& side, const Vector3d& point, const Vector3d& eye,
+                             const Eigen::Isometry3d& T_camera_world) const {
+  const Vector3d in_camera = T_camera_world * point;
   if (in_camera.z() < config_.min_range || in_camera.z() > config_.max_range) return false;
   const Vector2d pixel = camera_.project(in_camera);
   if (pixel.x() < -0.5 || pixel.y() < -0.5 || pixel.x() > camera_.width - 0.5 ||
       pixel.y() > camera_.height - 0.5) {
     return false;
   }
-  const Vector3d eye = T_world_camera.translation();
   if (side.normal.dot((eye - point).normalized()) < config_.min_cosine) return false;
   return caster_.is_free(eye, point);
 }

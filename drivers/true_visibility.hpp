@@ -54,8 +54,8 @@ class TrueVisibility {
 
   void add_side(const std::string& name, const SceneFace& face);
   void look_at(Side& side, const Eigen::Isometry3d& T_world_camera) const;
-  bool is_seen(const Side& side, const Eigen::Vector3d& point,
-               const Eigen::Isometry3d& T_world_camera) const;
+  bool is_seen(const Side& side, const Eigen::Vector3d& point, const Eigen::Vector3d& eye,
+               const Eigen::Isometry3d& T_camera_world) const;
   TruthPlane truth_of(const Side& side) const;
 
   const RayCaster& caster_;

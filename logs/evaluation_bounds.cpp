@@ -62,9 +62,10 @@ std::string_view words_of(BoundKind kind) {
 
 std::span<const Bound> accuracy_bounds() {
   using enum BoundKind;
-  static constexpr std::array<Bound, 29> kBounds = {{
+  static constexpr std::array<Bound, 33> kBounds = {{
       {"n0", "d_angle", kAtMost, 0.002},
       {"n0", "d_dist", kAtMost, 0.003},
+      {"n0", "d_dist_local", kAtMost, 0.003},
       {"n0", "rms_p", kAtMost, 0.003},
       {"n0", "recall", kAtLeast, 1.0},
       {"n0", "precision", kAtLeast, 1.0},
@@ -72,6 +73,7 @@ std::span<const Bound> accuracy_bounds() {
       {"n0", "area_iou", kAtLeast, 0.92},
       {"n005", "d_angle", kAtMost, 0.003},
       {"n005", "d_dist", kAtMost, 0.006},
+      {"n005", "d_dist_local", kAtMost, 0.006},
       {"n005", "rms_p", kAtMost, 0.005},
       {"n005", "recall", kAtLeast, 1.0},
       {"n005", "precision", kAtLeast, 1.0},
@@ -79,6 +81,7 @@ std::span<const Bound> accuracy_bounds() {
       {"n005", "area_iou", kAtLeast, 0.88},
       {"n02", "d_angle", kAtMost, 0.008},
       {"n02", "d_dist", kAtMost, 0.015},
+      {"n02", "d_dist_local", kAtMost, 0.015},
       {"n02", "rms_p", kAtMost, 0.010},
       {"n02", "recall", kAtLeast, 1.0},
       {"n02", "precision", kAtLeast, 0.9},
@@ -86,6 +89,7 @@ std::span<const Bound> accuracy_bounds() {
       {"n02", "area_iou", kAtLeast, 0.80},
       {"n0obj", "d_angle", kAtMost, 0.002},
       {"n0obj", "d_dist", kAtMost, 0.003},
+      {"n0obj", "d_dist_local", kAtMost, 0.003},
       {"n0obj", "rms_p", kAtMost, 0.003},
       {"n0obj", "recall", kAtLeast, 1.0},
       {"n0obj", "precision", kAtLeast, 1.0},

@@ -5,10 +5,6 @@
 
 namespace geomap::logs {
 
-std::string number_text(std::optional<double> value, double scale, int decimals) {
-  return value ? fmt::format("{:.{}f}", *value * scale, decimals) : "-";
-}
-
 Cell spread_cell(const std::optional<Spread>& spread, double scale, int decimals) {
   if (!spread) return {"-"};
   Cell cell{number_text(spread->mean, scale, decimals)};

@@ -4,13 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "logs/number_text.hpp"
 #include "logs/page_document.hpp"
 #include "logs/run_statistics.hpp"
 
 namespace geomap::logs {
-
-/// @brief "-" for what is not known.
-std::string number_text(std::optional<double> value, double scale, int decimals);
 
 /// @brief The mean, and where there is more than one value the range beside it.
 Cell spread_cell(const std::optional<Spread>& spread, double scale, int decimals);

@@ -169,11 +169,9 @@ void add_shortcomings(Document& page, const RunCollection& collection,
   add_table(page, std::move(table));
 }
 
-}  // namespace
-
-Document evaluation_document(const RunCollection& collection) {
-  const std::vector<RunGroup> groups = group_runs(collection);
-  const std::vector<BoundResult> bounds = check_bounds(groups);
+// Every table and figure of the paper with ours beside it.
+Document evaluation_document(const RunCollection& collection, std::span<const RunGroup> groups,
+                             std::span<const BoundResult> bounds) {
   Document page;
   page.title = "geomap beside the paper";
   add_summary(page, collection, groups, bounds);
@@ -186,11 +184,13 @@ Document evaluation_document(const RunCollection& collection) {
   return page;
 }
 
+}  // namespace
+
 EvaluationPageSummary write_evaluation_page(const fs::path& runs, const fs::path& folder) {
   const RunCollection collection = read_runs(runs);
   const std::vector<RunGroup> groups = group_runs(collection);
   const std::vector<BoundResult> bounds = check_bounds(groups);
-  const Document page = evaluation_document(collection);
+  const Document page = evaluation_document(collection, groups, bounds);
   fs::create_directories(folder / "pictures");
   for (const Picture* picture : pictures_of(page)) {
     mapping::write_file(folder / "pictures" / picture->name, picture->svg);

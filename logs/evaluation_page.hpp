@@ -4,9 +4,6 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "logs/page_document.hpp"
-#include "logs/run_collection.hpp"
-
 namespace geomap::logs {
 
 /// @brief What a page was made from, for the terminal.
@@ -16,10 +13,6 @@ struct EvaluationPageSummary {
   std::size_t bounds = 0;   // checked
   std::size_t missed = 0;
 };
-
-/// @brief Every table and figure of the paper with ours beside it.
-/// @throws std::runtime_error when a map's picture cannot be read.
-Document evaluation_document(const RunCollection& collection);
 
 /// @brief Reads a folder of runs and writes evaluation.html (one file with everything in it),
 /// evaluation.md with pictures/, evaluation.json (all aggregated figures; metres, radians, seconds)

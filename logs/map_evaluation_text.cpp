@@ -7,17 +7,14 @@
 #include <filesystem>
 
 #include "geometry/angles.hpp"
+#include "logs/number_text.hpp"
+#include "logs/paper_results.hpp"
 #include "mapping/export_features.hpp"
 
 namespace geomap::logs {
 namespace {
 
 using geometry::degrees;
-
-/// A number in fixed notation, or a dash where there is none.
-std::string fixed(std::optional<double> value, int digits, double scale = 1.0) {
-  return value ? fmt::format("{:.{}f}", scale * *value, digits) : "-";
-}
 
 std::optional<double> measure(const std::optional<PlaneErrors>& errors,
                               double PlaneErrors::*member) {
@@ -35,21 +32,15 @@ std::string cell(const std::string& text) {
   return result;
 }
 
-/// Figures of the paper (Arbeiter et al. 2012): simulated without noise, with sigma of
-/// 5 and 20 mm, with clutter; two real recordings. It does not print every one.
-struct PaperFigures {
-  const char* angle;
-  const char* dist;
-  const char* rms_p;
-  const char* reduction;
-};
-constexpr PaperFigures kPaper = {
-    "0.0067 | 0.0057 | 0.058 | 0.0056 | 0.069 | 0.066",
-    "7.1 | 19.8 | 137 | 8.4 | 102 | 102",
-    "5.4 | 24.6 | 21.1 | 4.8 | 42.1 | 31.7",
-    "16.14 | | 7.0 | | | ",
-};
-constexpr const char* kNoPaper = " | | | | | ";
+/// A figure of each of the paper's rows as cells, with the unit and digits of ours beside it.
+template <typename Figure>
+std::string paper_cells(Figure PaperAccuracy::*figure, double scale, int decimals) {
+  std::string cells;
+  for (const PaperAccuracy& row : paper_accuracy()) {
+    cells += fmt::format(" {} |", number_text(row.*figure, scale, decimals));
+  }
+  return cells;
+}
 
 std::string headline_table(const MapEvaluationRun& run) {
   const MapEvaluation& e = run.evaluation;
@@ -59,24 +50,30 @@ std::string headline_table(const MapEvaluationRun& run) {
           ? "| | this map | paper: simulated | 5 mm noise | 20 mm noise | clutter | real 1 "
             "| real 2 |\n|---|--:|--:|--:|--:|--:|--:|--:|\n"
           : "| | this map |\n|---|--:|\n";
-  const auto row = [&](const char* name, const std::string& value, const char* paper = kNoPaper) {
-    text += fmt::format("| {} | {} |", name, value);
-    text += beside_paper ? fmt::format(" {} |\n", paper) : "\n";
+  std::string dashes;
+  for (std::size_t i = 0; i < paper_accuracy().size(); ++i) dashes += " - |";
+  const auto row = [&](const char* name, const std::string& value,
+                       std::optional<std::string> paper = {}) {
+    text += fmt::format("| {} | {} |{}\n", name, value, beside_paper ? paper.value_or(dashes) : "");
   };
-  row("d_coeff", fixed(measure(e.errors, &PlaneErrors::coeff), 4));
-  row("d_angle [rad]", fixed(measure(e.errors, &PlaneErrors::angle), 4), kPaper.angle);
-  row("d_dist [mm]", fixed(measure(e.errors, &PlaneErrors::dist), 1, 1e3), kPaper.dist);
-  row("d_dist_local [mm]", fixed(measure(e.errors, &PlaneErrors::dist_local), 1, 1e3));
-  row("RMS_p [mm]", fixed(measure(e.errors, &PlaneErrors::rms_p), 1, 1e3), kPaper.rms_p);
-  row("recall", fixed(e.recall, 3));
-  row("precision", fixed(e.precision, 3));
-  row("features per visible component", fixed(e.features_per_component, 2));
-  row("area IoU", fixed(e.area_iou, 3));
+  row("d_coeff", number_text(measure(e.errors, &PlaneErrors::coeff), 1.0, 4));
+  row("d_angle [rad]", number_text(measure(e.errors, &PlaneErrors::angle), 1.0, 4),
+      paper_cells(&PaperAccuracy::d_angle, 1.0, 4));
+  row("d_dist [mm]", number_text(measure(e.errors, &PlaneErrors::dist), 1e3, 1),
+      paper_cells(&PaperAccuracy::d_dist, 1e3, 1));
+  row("d_dist_local [mm]", number_text(measure(e.errors, &PlaneErrors::dist_local), 1e3, 1));
+  row("RMS_p [mm]", number_text(measure(e.errors, &PlaneErrors::rms_p), 1e3, 1),
+      paper_cells(&PaperAccuracy::rms_p, 1e3, 1));
+  row("recall", number_text(e.recall, 1.0, 3));
+  row("precision", number_text(e.precision, 1.0, 3));
+  row("features per visible component", number_text(e.features_per_component, 1.0, 2));
+  row("area IoU", number_text(e.area_iou, 1.0, 3));
   row("outline: mean distance [cm]",
-      e.hull_distance ? fixed(e.hull_distance->mean, 1, 100.0) : "-");
+      e.hull_distance ? number_text(e.hull_distance->mean, 100.0, 1) : "-");
   row("outline: largest distance [cm]",
-      e.hull_distance ? fixed(e.hull_distance->max, 1, 100.0) : "-");
-  row("planes extracted for each feature", fixed(run.reduction_ratio(), 2), kPaper.reduction);
+      e.hull_distance ? number_text(e.hull_distance->max, 100.0, 1) : "-");
+  row("planes extracted for each feature", number_text(run.reduction_ratio(), 1.0, 2),
+      paper_cells(&PaperAccuracy::reduction, 1.0, 2));
   return text;
 }
 
@@ -85,12 +82,13 @@ std::string plane_row(const SurfaceEvaluation& plane) {
   return fmt::format(
       "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", cell(plane.name),
       plane.features, plane.components ? std::to_string(*plane.components) : "-",
-      fixed(measure(plane.errors, &PlaneErrors::angle), 2, degrees(1.0)),
-      fixed(measure(plane.errors, &PlaneErrors::dist_local), 1, 1e3),
-      fixed(measure(plane.errors, &PlaneErrors::dist), 1, 1e3),
-      fixed(measure(plane.errors, &PlaneErrors::rms_p), 1, 1e3), fixed(plane.visible_area, 2),
-      fixed(plane.map_area, 2), fixed(plane.area_iou(), 3),
-      hull ? fixed(hull->mean, 1, 100.0) : "-", hull ? fixed(hull->max, 1, 100.0) : "-");
+      number_text(measure(plane.errors, &PlaneErrors::angle), degrees(1.0), 2),
+      number_text(measure(plane.errors, &PlaneErrors::dist_local), 1e3, 1),
+      number_text(measure(plane.errors, &PlaneErrors::dist), 1e3, 1),
+      number_text(measure(plane.errors, &PlaneErrors::rms_p), 1e3, 1),
+      number_text(plane.visible_area, 1.0, 2), number_text(plane.map_area, 1.0, 2),
+      number_text(plane.area_iou(), 1.0, 3), hull ? number_text(hull->mean, 100.0, 1) : "-",
+      hull ? number_text(hull->max, 100.0, 1) : "-");
 }
 
 std::string plane_table(const std::vector<SurfaceEvaluation>& planes) {
@@ -124,12 +122,13 @@ std::string summary_text(const MapEvaluationRun& run) {
       "map: {} of {} features belong to a known surface; recall {}, precision {}\n"
       "planes, on average: {}° and {} mm off, {} mm at the world's origin; vertices {} mm\n"
       "area IoU {}, {} features for each visible part, {} planes extracted for each feature\n",
-      e.features_associated, e.features_counted, fixed(e.recall, 3), fixed(e.precision, 3),
-      fixed(measure(e.errors, &PlaneErrors::angle), 2, degrees(1.0)),
-      fixed(measure(e.errors, &PlaneErrors::dist_local), 1, 1e3),
-      fixed(measure(e.errors, &PlaneErrors::dist), 1, 1e3),
-      fixed(measure(e.errors, &PlaneErrors::rms_p), 1, 1e3), fixed(e.area_iou, 3),
-      fixed(e.features_per_component, 2), fixed(run.reduction_ratio(), 2));
+      e.features_associated, e.features_counted, number_text(e.recall, 1.0, 3),
+      number_text(e.precision, 1.0, 3),
+      number_text(measure(e.errors, &PlaneErrors::angle), degrees(1.0), 2),
+      number_text(measure(e.errors, &PlaneErrors::dist_local), 1e3, 1),
+      number_text(measure(e.errors, &PlaneErrors::dist), 1e3, 1),
+      number_text(measure(e.errors, &PlaneErrors::rms_p), 1e3, 1), number_text(e.area_iou, 1.0, 3),
+      number_text(e.features_per_component, 1.0, 2), number_text(run.reduction_ratio(), 1.0, 2));
 }
 
 std::string report_text(const MapEvaluationRun& run) {

@@ -18,11 +18,14 @@ struct DepthTolerance {
   double unevenness =
       0.001;  // of surfaces that count as flat, along the normal, beside the rest [m]
 
+  /// @brief Noise that is the same at every depth: a simulator's, and known well.
+  bool is_white() const { return !(noise.slope > 0.0); }
+
   double systematic_along_ray(double z) const {
     // From a rendering's rounded depth to what cameras with smoothed depth come down to [factor].
     constexpr double kRendered = 0.1, kCamera = 0.3;
     const double share = std::clamp((noise.factor - kRendered) / (kCamera - kRendered), 0.0, 1.0);
-    return noise.slope > 0.0 ? share * systematic * z : 0.0;
+    return is_white() ? 0.0 : share * systematic * z;
   }
 
   double along_ray(double z) const { return gate * noise.sigma(z) + systematic_along_ray(z); }

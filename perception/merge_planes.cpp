@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace geomap::perception {
@@ -110,30 +111,19 @@ bool join(Surface& a, const Surface& b, const DepthTolerance& tolerance, double 
 // What a cell's mean is off a plane along its ray, squared, over the noise of the mean.
 double squares_off(const PlaneCell& cell, const geometry::Plane& plane,
                    const DepthTolerance& tolerance) {
-  const Eigen::Vector3d mean = cell.sums.moments.first / cell.sums.moments.weight;
+  const Eigen::Vector3d mean = cell.sums.moments.centroid();
   const double cosine = std::abs(plane.normal.dot(mean)) / mean.z();
   const double sigma = cosine * tolerance.noise.sigma(mean.z());
   const double off = plane.signed_distance(mean);
   return std::min(kFarOff, off * off * cell.sums.pixels / (sigma * sigma));
 }
 
-// Of a surface's cells: which of the others, larger by far and touching it, explain them.
-bool is_made_up(std::size_t own, const std::vector<Surface>& surfaces, const Contacts& contacts,
-                const std::vector<const PlaneCell*>& cells, const DepthTolerance& tolerance) {
-  std::vector<const geometry::Plane*> others;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const auto touching =
-        contacts.find(std::minmax<int>(static_cast<int>(own), static_cast<int>(i)));
-    if (i == own || !surfaces[i].fit || touching == contacts.end()) continue;
-    if (surfaces[own].sums.pixels < kShellPixels * surfaces[i].sums.pixels) {
-      others.push_back(&surfaces[i].fit->plane);
-    }
-  }
-  if (others.size() < 2) return false;
+bool explain(const std::vector<const geometry::Plane*>& planes,
+             const std::vector<const PlaneCell*>& cells, const DepthTolerance& tolerance) {
   double sum = 0.0;
   for (const PlaneCell* cell : cells) {
     double least = kFarOff;
-    for (const geometry::Plane* plane : others) {
+    for (const geometry::Plane* plane : planes) {
       least = std::min(least, squares_off(*cell, *plane, tolerance));
     }
     sum += least;
@@ -146,24 +136,36 @@ int find(const std::vector<int>& joined_to, int i) {
   return i;
 }
 
+// Surfaces that two or more far larger ones, which they touch, explain as well.
 void drop_made_up(std::vector<Surface>& surfaces, const std::vector<int>& joined_to,
                   const Contacts& contacts, const PlanePixels& pixels,
                   const DepthTolerance& tolerance) {
   std::vector<std::vector<const PlaneCell*>> cells(surfaces.size());
-  std::vector<Surface> roots = surfaces;  // without what has been joined to others
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const auto root = static_cast<std::size_t>(find(joined_to, static_cast<int>(i)));
-    if (root != i) roots[i].fit.reset();
-    for (const PlaneCell& cell : pixels.cells[i]) cells[root].push_back(&cell);
+    auto& of_root = cells[static_cast<std::size_t>(find(joined_to, static_cast<int>(i)))];
+    for (const PlaneCell& cell : pixels.cells[i]) of_root.push_back(&cell);
   }
-  Contacts between;
-  for (const auto& [pair, count] : contacts) {
-    const int a = find(joined_to, pair.first), b = find(joined_to, pair.second);
-    if (a != b) between[std::minmax(a, b)] += count;
+  std::vector<std::set<std::size_t>> larger(surfaces.size());  // that each touches
+  const auto note = [&](std::size_t own, std::size_t other) {
+    if (surfaces[own].sums.pixels < kShellPixels * surfaces[other].sums.pixels) {
+      larger[own].insert(other);
+    }
+  };
+  for (const auto& contact : contacts) {
+    const auto a = static_cast<std::size_t>(find(joined_to, contact.first.first));
+    const auto b = static_cast<std::size_t>(find(joined_to, contact.first.second));
+    if (a == b || !surfaces[a].fit || !surfaces[b].fit) continue;
+    note(a, b);
+    note(b, a);
   }
+  std::vector<std::size_t> made_up;
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    if (roots[i].fit && is_made_up(i, roots, between, cells[i], tolerance)) surfaces[i].fit.reset();
+    if (larger[i].size() < 2) continue;
+    std::vector<const geometry::Plane*> planes;
+    for (const std::size_t other : larger[i]) planes.push_back(&surfaces[other].fit->plane);
+    if (explain(planes, cells[i], tolerance)) made_up.push_back(i);
   }
+  for (const std::size_t i : made_up) surfaces[i].fit.reset();
 }
 
 }  // namespace

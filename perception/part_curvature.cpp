@@ -15,10 +15,6 @@ constexpr int kLeastCells = 12;
 // A depth camera's noise is alike in neighbouring cells: so many count as one.
 constexpr double kCorrelatedCells = 4.0;
 
-Eigen::Vector3d mean_of(const PlaneCell& cell) {
-  return cell.sums.moments.first / cell.sums.moments.weight;
-}
-
 // In the plane: where cells are from the centroid along the part's own axes.
 struct PartAxes {
   Eigen::Vector3d s, t;  // unit, the longer one first
@@ -31,7 +27,7 @@ PartAxes axes_of(const PlanePart& part, const geometry::PlaneFit& fit) {
   Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
   double weight = 0.0;
   for (const PlaneCell* cell : part) {
-    const Eigen::Vector3d from = mean_of(*cell) - fit.centroid;
+    const Eigen::Vector3d from = cell->sums.moments.centroid() - fit.centroid;
     const Eigen::Vector2d at(u.dot(from), v.dot(from));
     second += cell->sums.pixels * at * at.transpose();
     weight += cell->sums.pixels;
@@ -68,7 +64,7 @@ std::optional<PartCurvature> curvature_of(const PlanePart& part, const geometry:
   if (!(axes.size.minCoeff() > 0.0)) return std::nullopt;
   QuadricSums sums;  // in units of the part's size: they stay comparable
   for (const PlaneCell* cell : part) {
-    const Eigen::Vector3d from = mean_of(*cell) - fit.centroid;
+    const Eigen::Vector3d from = cell->sums.moments.centroid() - fit.centroid;
     sums.add(axes.s.dot(from) / axes.size.x(), axes.t.dot(from) / axes.size.y(),
              fit.plane.normal.dot(from), cell->sums.pixels);
   }

@@ -125,8 +125,7 @@ int PixelLabeler::candidates_at(int column, int row, const std::vector<geometry:
   for (std::size_t i = 0; own == kNoPlane && i < planes.size(); ++i) {
     if (is_on(planes[i], own_cell)) add(static_cast<std::int16_t>(i));
   }
-  // Beside an edge the normal is that of one side, and blurred by noise: the other side may
-  // compete.
+  // Beside an edge the normal is that of one side, and blurred: the other side may compete.
   if (count > 0) add_neighbours(false);
   return count;
 }
@@ -142,8 +141,7 @@ bool PixelLabeler::is_on(const geometry::Plane& plane, std::size_t cell) const {
   return normals_[cell].kind == CellNormal::Kind::kPlanar && agrees(plane, cell);
 }
 
-// A cell's own normal may say otherwise. Beside an edge it is that of one side, and blurred by
-// noise.
+// False where the cell's own normal says otherwise.
 bool PixelLabeler::agrees(const geometry::Plane& plane, std::size_t cell) const {
   const CellNormal& normal = normals_[cell];
   return normal.kind != CellNormal::Kind::kPlanar || normal.normal.dot(plane.normal) >= cosine_;
@@ -204,9 +202,9 @@ float PixelLabeler::misfit(const Candidate& plane, int u, int v) const {
 }
 
 // Where several planes are possible, as beside the line in which two of them meet, a single reading
-// with its noise says little. What the readings around fit best decides: one plane everywhere, or
-// two that meet in an edge, of which the farther one is seen where it bulges (a box from outside),
-// the nearer one where it recedes (a room's corner).
+// with its noise says little. What the readings around fit best decides: one plane everywhere, two
+// that meet in an edge, of which the farther one is seen where it bulges (a box from outside), the
+// nearer one where it recedes (a room's corner), or none, as where a plane cuts through clutter.
 void PixelLabeler::settle_cell(int column, int row, const Candidate* candidates, int count,
                                std::vector<std::int16_t>& labels) const {
   const Neighbourhood around = neighbourhood(column, row, candidates, count);

@@ -16,8 +16,7 @@ namespace {
 constexpr double kCorrelatedPixels = 64.0;
 
 constexpr double kWhiteRmsRatio = 1.2;  // largest rms over what white noise makes it
-
-constexpr double kLeastBow = 0.25;  // of what is bent, over the unevenness of what is flat
+constexpr double kLeastBow = 0.25;      // of what is bent, over the unevenness of what is flat
 
 geometry::PlaneObservation without_surface(const PlanePart& part) {
   PlaneSums sums;
@@ -43,10 +42,8 @@ bool is_flat(const geometry::PlaneFit& fit, const geometry::PlaneMoments& moment
   const Eigen::Vector3d& n = fit.plane.normal;
   const double noise = n.dot(moments.noise * n) / moments.weight;  // along the normal [m²]
   const double systematic = 0.5 * cosine * tolerance.systematic_along_ray(fit.centroid.z());
-  // White noise is alike everywhere, and known well.
-  const bool is_white = !(tolerance.noise.slope > 0.0);
-  const double ratio =
-      is_white ? std::min(kWhiteRmsRatio, settings.max_rms_ratio) : settings.max_rms_ratio;
+  const double ratio = tolerance.is_white() ? std::min(kWhiteRmsRatio, settings.max_rms_ratio)
+                                            : settings.max_rms_ratio;
   return fit.rms <= ratio * std::sqrt(noise + systematic * systematic) + 0.5 * tolerance.unevenness;
 }
 

@@ -90,10 +90,10 @@ TEST_F(EvaluationPage, AMissedBoundNamesTheWorstSeed) {
             {.evaluation = R"({"features_per_component": 1.25, "rms_p": 0.00301})"});
   const EvaluationPageSummary summary = write();
   EXPECT_EQ(summary.runs, 21U);
-  EXPECT_EQ(summary.bounds, 29U);
+  EXPECT_EQ(summary.bounds, 33U);
   EXPECT_EQ(summary.missed, 2U);
   const std::string text = written("evaluation.md");
-  EXPECT_THAT(text, HasSubstr("27 of 29 bounds are met"));
+  EXPECT_THAT(text, HasSubstr("31 of 33 bounds are met"));
   EXPECT_EQ(
       line_after(text, "## Bounds", "| features per component"),
       "| features per component | ransac-moments | exactly 1.000 | 1.250 | seed3 | **MISSED** |");
@@ -128,7 +128,7 @@ TEST_F(EvaluationPage, TheJsonHoldsAllAggregatedFigures) {
   EXPECT_TRUE(group["planes"]["floor"]["d_dist_local"].is_null());
   EXPECT_EQ(group["stage_seconds"]["total"]["p95"]["max"], 0.1);
   EXPECT_EQ(group["bytes"]["map"]["mean"], 50.0);
-  EXPECT_EQ(json["bounds"].size(), 29U);
+  EXPECT_EQ(json["bounds"].size(), 33U);
   EXPECT_EQ(json["bounds"][0]["met"], true);
   EXPECT_EQ(json["paper"]["accuracy"][0]["d_angle"], 0.0067);
 }

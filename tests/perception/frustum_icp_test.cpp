@@ -39,6 +39,39 @@ TEST(FrustumIcp, FindsTheCameraInARoomFromFiveCentimetresAndThreeDegreesAway) {
   worst.record("room");
 }
 
+// In a room whose right direction hardly shows, an exact prior keeps the view from making it up.
+TEST(FrustumIcp, AMeasuredPriorDecidesWhereTheViewTellsLittle) {
+  const RegistrationScene scene = room_scene();
+  const Isometry3d T_map = testing::look_at({0.6, -1.2, 1.3}, {-0.5, 1.3, 0.6});
+  double free = 0.0, held = 0.0;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    PointMap map;
+    map.insert(1, noisy_frame(scene, T_map, seed), T_map);
+    const FrameView view = map.view(noisy_frame(scene, scene.T_world_camera, 100 + seed));
+    const auto all = map.voxels().surfels_in({testing::kinect_camera(), 0.1, 5.0, T_map});
+    const auto error = [&](double hold_sigma) {
+      const Alignment found =
+          align(all.surfels, view.surfaces, scene.T_world_camera, {}, hold_sigma);
+      return motion(scene.T_world_camera, found.T_world_camera).translation.norm();
+    };
+    free += error(0.0);
+    held += error(0.001);
+  }
+  EXPECT_LT(held, 0.5 * free);
+}
+
+TEST(FrustumIcp, AMeasuredPriorThatIsPlainlyWrongGivesWay) {
+  const RegistrationScene scene = room_scene();
+  const std::vector<Surfel> surfels = exact_surfels(scene);
+  const SurfaceImage view = exact_view(scene, scene.T_world_camera);
+  for (unsigned seed = 1; seed <= 15; ++seed) {
+    const Alignment found =
+        align(surfels, view, disturbed(scene.T_world_camera, 0.05, 3.0, seed), {}, 0.01);
+    EXPECT_TRUE(found.converged);
+    EXPECT_LT(motion(scene.T_world_camera, found.T_world_camera).translation.norm(), 0.006);
+  }
+}
+
 TEST(FrustumIcp, FindsTheCameraInAMapMadeFromAnotherNoisyView) {
   Worst worst;
   const RegistrationScene scene = room_scene();

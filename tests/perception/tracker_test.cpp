@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
+#include "geometry/angles.hpp"
 #include "perception/rigid_transform.hpp"
 #include "support/plane_renderer.hpp"
 
@@ -89,6 +91,52 @@ TEST(Tracker, CorrectsAnOdometryThatDrifts) {
   // What the odometry has drifted by is now in T_world_odom.
   EXPECT_GT(drive.tracker().prior().T_world_odom().translation().norm(), 0.03);
   EXPECT_EQ(drive.tracker().point_map().keyframes(), static_cast<std::size_t>(keyframes));
+}
+
+// Two walls at right angles, far enough apart that a view of one shows nothing of the other.
+geometry::RgbdFrame two_walls_seen_from(const Isometry3d& T_world_camera, std::int64_t utime) {
+  const std::vector<testing::Rectangle> walls = {
+      {"first", {2.0, 0.0, 1.0}, -Vector3d::UnitY(), Vector3d::UnitZ(), 0.3, 1.0, {}, {}},
+      {"second", {2.0, 2.2, 1.0}, -Vector3d::UnitY(), Vector3d::UnitZ(), 0.4, 1.0, {}, {}}};
+  geometry::RgbdFrame frame =
+      testing::render(walls, testing::kinect_camera(2), T_world_camera, 0.003, 7).frame;
+  frame.utime = utime;
+  return frame;
+}
+
+Isometry3d turned_left(double degrees) {
+  const double angle = geometry::radians(degrees);
+  return testing::look_at({0.0, 0.0, 1.0}, {std::cos(angle), std::sin(angle), 1.0});
+}
+
+// Sees the first wall, then what is `degrees` to its left.
+Tracked see_new_ground(double degrees, bool has_odometry) {
+  Drive drive;
+  drive.see(0, two_walls_seen_from(turned_left(0.0), kStart), turned_left(0.0));
+  const std::int64_t next = has_odometry ? 1 : 10;  // a pose held for so long says nothing
+  const Isometry3d T_next = turned_left(degrees);
+  return drive.see(static_cast<int>(next), two_walls_seen_from(T_next, kStart + next * kFrame),
+                   has_odometry ? std::optional(T_next) : std::nullopt);
+}
+
+TEST(Tracker, FollowsOdometryIntoWhatTheMapDoesNotKnow) {
+  TrackerConfig config;
+  config.registration.unknown_turn_deg = 60.0;
+  Drive drive(config);
+  drive.see(0, two_walls_seen_from(turned_left(0.0), kStart), turned_left(0.0));
+  const Isometry3d T_next = turned_left(40.0);
+  const Tracked tracked = drive.see(1, two_walls_seen_from(T_next, kStart + kFrame), T_next);
+  ASSERT_EQ(tracked.status, TrackStatus::kKeyframe) << tracked.reason;
+  EXPECT_EQ(tracked.registration->reason, RegistrationReason::kUnknownView);
+  expect_near(*tracked.T_world_camera, T_next, 1e-9, 1e-9);
+  EXPECT_EQ(drive.tracker().point_map().keyframes(), 2U);
+}
+
+TEST(Tracker, DoesNotFollowItFarOrWithoutIt) {
+  const Tracked far = see_new_ground(40.0, true);  // 30 degrees are allowed
+  EXPECT_EQ(far.status, TrackStatus::kRejected);
+  EXPECT_EQ(far.reason, "overlap_too_small");
+  EXPECT_NE(see_new_ground(25.0, false).status, TrackStatus::kKeyframe);
 }
 
 TEST(Tracker, GoesOnAtConstantVelocityWithoutOdometry) {
