@@ -9,11 +9,9 @@
 #include "perception/cell_normals.hpp"
 #include "perception/depth_cells.hpp"
 #include "perception/depth_tolerance.hpp"
+#include "perception/plane_extractor.hpp"
 
 namespace geomap::perception {
-
-/// @brief Label of a pixel or cell without a plane.
-inline constexpr std::int16_t kNoPlane = -1;
 
 /// @brief Assigns every reading to the plane it fits best, among the planes known in the
 /// neighbourhood of its cell: within the depth tolerance at its range, and not where the cell's own

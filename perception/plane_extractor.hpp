@@ -12,9 +12,14 @@
 
 namespace geomap::perception {
 
+/// @brief Label of a pixel or cell without a plane.
+inline constexpr std::int16_t kNoPlane = -1;
+
 /// @brief The planes of one frame, camera frame, largest (by inliers) first.
 struct ExtractedPlanes {
   std::vector<geometry::PlaneObservation> planes;
+  // Per pixel, row by row: index into `planes`, or kNoPlane. Empty for an empty frame.
+  std::vector<std::int16_t> label;
   geometry::DepthNoise noise;  // in force for this frame, its factor estimated where configured
   double extraction_seconds = 0.0;  // wall clock, for profiling only: everything but the outlines
   double hull_seconds = 0.0;        // wall clock, for profiling only: outlines

@@ -163,26 +163,51 @@ Surfaces grow_surfaces(const RansacExtractorConfig& config, const geometry::Rgbd
   return surfaces;
 }
 
+// A plane to report, and the pixels that are on it: those of a part with that surface's label.
+struct Found {
+  PlaneObservation observation;
+  std::int16_t surface = kNoPlane;
+  PlanePart part;
+};
+
 // Paper: clustering of the inliers, concave hull.
-std::vector<PlaneObservation> outline_surfaces(const RansacExtractorConfig& config,
-                                               const geometry::RgbdFrame& frame,
-                                               const DepthCells& cells,
-                                               const DepthTolerance& tolerance,
-                                               const Surfaces& surfaces) {
+std::vector<Found> outline_surfaces(const RansacExtractorConfig& config,
+                                    const geometry::RgbdFrame& frame, const DepthCells& cells,
+                                    const DepthTolerance& tolerance, const Surfaces& surfaces,
+                                    const std::optional<Eigen::Vector3d>& up_camera) {
   const geometry::CameraModel& camera = frame.depth_camera;
   const LabelImage image{surfaces.pixels.label, frame.depth.width};
   const ObservationSettings settings = observation_settings(config);
-  std::vector<PlaneObservation> observations;
+  std::vector<Found> found;
   for (std::size_t i = 0; i < surfaces.planes.size(); ++i) {
-    for (const PlanePart& part :
+    const auto surface = static_cast<std::int16_t>(i);
+    for (PlanePart& part :
          split_into_parts(camera, cells.columns(), surfaces.planes[i], surfaces.pixels.cells[i],
                           config.part_gap, config.min_pixels)) {
-      auto observation =
-          observe(camera, image, static_cast<std::int16_t>(i), part, tolerance, settings);
-      if (observation) observations.push_back(std::move(*observation));
+      auto observation = observe(camera, image, surface, part, tolerance, settings);
+      if (!observation || !is_wanted(config, observation->surface.plane, up_camera)) continue;
+      found.push_back({std::move(*observation), surface, std::move(part)});
     }
   }
-  return observations;
+  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+    return a.observation.inliers > b.observation.inliers;
+  });
+  return found;
+}
+
+std::vector<std::int16_t> label_found(const std::vector<Found>& found, const LabelImage& image) {
+  std::vector<std::int16_t> label(image.label.size(), kNoPlane);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (const PlaneCell* cell : found[i].part) {
+      for (int v = cell->box.min().y(); v <= cell->box.max().y(); ++v) {
+        for (int u = cell->box.min().x(); u <= cell->box.max().x(); ++u) {
+          const auto pixel = static_cast<std::size_t>(v * image.width + u);
+          if (image.label[pixel] == found[i].surface) label[pixel] = static_cast<std::int16_t>(i);
+        }
+      }
+    }
+  }
+  return label;
 }
 
 }  // namespace
@@ -214,12 +239,10 @@ ExtractedPlanes RansacExtractor::extract(const geometry::RgbdFrame& frame, std::
   result.extraction_seconds = seconds_since(start);
 
   const Clock::time_point hull_start = Clock::now();
-  for (PlaneObservation& plane : outline_surfaces(config_, frame, cells, tolerance, surfaces)) {
-    if (is_wanted(config_, plane.surface.plane, up_camera))
-      result.planes.push_back(std::move(plane));
-  }
-  std::stable_sort(result.planes.begin(), result.planes.end(),
-                   [](const auto& a, const auto& b) { return a.inliers > b.inliers; });
+  std::vector<Found> found =
+      outline_surfaces(config_, frame, cells, tolerance, surfaces, up_camera);
+  result.label = label_found(found, {surfaces.pixels.label, frame.depth.width});
+  for (Found& plane : found) result.planes.push_back(std::move(plane.observation));
   result.hull_seconds = seconds_since(hull_start);
   return result;
 }

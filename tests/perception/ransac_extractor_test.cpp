@@ -254,6 +254,24 @@ TEST(RansacExtractor, StatisticsAreThoseOfTheInliers) {
   EXPECT_NEAR(planes[0].color[2], 50.0, 1e-9);
 }
 
+TEST(RansacExtractor, EveryPlanesPixelsAreLabelled) {
+  const Rendering rendering =
+      testing::render(testing::small_room(), testing::kinect_camera(), view_into_room());
+  const auto found = RansacExtractor().extract(rendering.frame, 1, std::nullopt);
+  ASSERT_EQ(found.label.size(), rendering.frame.depth.millimetres.size());
+  const geometry::CameraModel& camera = rendering.frame.depth_camera;
+  std::vector<std::int64_t> pixels(found.planes.size(), 0);
+  for (std::size_t i = 0; i < found.label.size(); ++i) {
+    if (found.label[i] == kNoPlane) continue;
+    const auto plane = static_cast<std::size_t>(found.label[i]);
+    ++pixels.at(plane);
+    const int u = static_cast<int>(i) % camera.width, v = static_cast<int>(i) / camera.width;
+    const auto p = camera.point(u, v, 0.001 * rendering.frame.depth.millimetres[i]);
+    ASSERT_NEAR(found.planes[plane].surface.plane.signed_distance(p), 0.0, 0.01);
+  }
+  for (std::size_t k = 0; k < pixels.size(); ++k) EXPECT_EQ(pixels[k], found.planes[k].inliers);
+}
+
 TEST(RansacExtractor, LargerPlanesComeFirst) {
   const Rendering rendering =
       testing::render(testing::small_room(), testing::kinect_camera(), view_into_room());
