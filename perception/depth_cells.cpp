@@ -6,65 +6,106 @@
 #include <cmath>
 #include <cstdint>
 
+#include "geometry/multiversion.hpp"
+
 namespace geomap::perception {
 namespace {
 
 constexpr int kSide = DepthCells::kSide;
-constexpr std::size_t kDepthValues = 65536;
 
-// Inverse depth [1/m] of every possible reading; 0 for none.
-std::vector<double> inverse_table(double near, double far) {
-  std::vector<double> table(kDepthValues, 0.0);
-  const auto first = static_cast<std::size_t>(std::clamp(std::ceil(near * 1000.0), 1.0, 65534.0));
-  const auto last = static_cast<std::size_t>(std::clamp(std::floor(far * 1000.0), 0.0, 65534.0));
-  for (std::size_t mm = first; mm <= last; ++mm) table[mm] = 1000.0 / static_cast<double>(mm);
-  return table;
+// Sums over the pixels of one column of a cell, for all columns of a row of cells; j counts rows
+// from the cell's first one.
+struct ColumnSums {
+  explicit ColumnSums(int pixels) : storage(static_cast<std::size_t>(6 * pixels)) {
+    double* at = storage.data();
+    for (double** sum : {&n, &nj, &njj, &q, &qj, &qq}) {
+      *sum = at;
+      at += pixels;
+    }
+  }
+  std::vector<double> storage;
+  double *n, *nj, *njj, *q, *qj, *qq;
+};
+
+// Readings in range, all four rows of a row of cells. Inverse depth is rounded to a float: a
+// thousandth of a reading's own rounding.
+GEOMAP_MULTIVERSION void sum_columns(const std::uint16_t* pixels, int stride, int width,
+                                     std::uint16_t nearest, std::uint16_t farthest,
+                                     double* __restrict n, double* __restrict nj,
+                                     double* __restrict njj, double* __restrict q,
+                                     double* __restrict qj, double* __restrict qq) {
+  static_assert(kSide == 4);
+  const std::uint16_t* __restrict row0 = pixels;
+  const std::uint16_t* __restrict row1 = row0 + stride;
+  const std::uint16_t* __restrict row2 = row1 + stride;
+  const std::uint16_t* __restrict row3 = row2 + stride;
+  const int low = nearest, high = farthest;
+  const auto is_read = [low, high](std::uint16_t mm) {
+    const int reading = mm;
+    return static_cast<float>(static_cast<int>(reading >= low) & static_cast<int>(reading <= high));
+  };
+  const auto divisor = [](std::uint16_t mm) {
+    const int reading = mm;
+    return static_cast<float>(reading + static_cast<int>(reading == 0));
+  };
+  for (int u = 0; u < width; ++u) {
+    const float n0 = is_read(row0[u]), n1 = is_read(row1[u]), n2 = is_read(row2[u]),
+                n3 = is_read(row3[u]);
+    const double q0 = 1000.0F / divisor(row0[u]) * n0, q1 = 1000.0F / divisor(row1[u]) * n1,
+                 q2 = 1000.0F / divisor(row2[u]) * n2, q3 = 1000.0F / divisor(row3[u]) * n3;
+    n[u] = n0 + n1 + n2 + n3;
+    nj[u] = n1 + 2.0F * n2 + 3.0F * n3;
+    njj[u] = n1 + 4.0F * n2 + 9.0F * n3;
+    q[u] = (q0 + q1) + (q2 + q3);
+    qj[u] = q1 + 2.0 * q2 + 3.0 * q3;
+    qq[u] = (q0 * q0 + q1 * q1) + (q2 * q2 + q3 * q3);
+  }
 }
 
-// Sums with pixel offsets (i, j) from the cell's first pixel in place of rays.
-struct OffsetSums {
-  double count = 0.0, i = 0.0, j = 0.0, ii = 0.0, ij = 0.0, jj = 0.0;
-  double q = 0.0, qi = 0.0, qj = 0.0, qq = 0.0;
+// Of the sums over the four columns of a cell: plain, times the column's number, and its square.
+inline double fold(const double* column) {
+  return (column[0] + column[1]) + (column[2] + column[3]);
+}
+inline double fold_by_i(const double* column) {
+  return column[1] + 2.0 * column[2] + 3.0 * column[3];
+}
+inline double fold_by_ii(const double* column) {
+  return column[1] + 4.0 * column[2] + 9.0 * column[3];
+}
 
-  void add_row(const double* values, int width, int row) {
-    double n = 0.0, ni = 0.0, nii = 0.0, s = 0.0, si = 0.0;
-    for (int k = 0; k < width; ++k) {
-      const double value = values[k];
-      const double is_read = value > 0.0 ? 1.0 : 0.0;
-      n += is_read;
-      ni += k * is_read;
-      nii += k * k * is_read;
-      s += value;
-      si += k * value;
-      qq += value * value;
-    }
-    count += n;
-    i += ni;
-    ii += nii;
-    j += row * n;
-    jj += row * row * n;
-    ij += row * ni;
-    q += s;
-    qi += si;
-    qj += row * s;
+// From columns to cells, and from pixel offsets to rays: x = x0 + i·sx, y = y0 + j·sy. `cells` are
+// kSums lists.
+GEOMAP_MULTIVERSION void fold_columns(const double* __restrict n, const double* __restrict nj,
+                                      const double* __restrict njj, const double* __restrict q,
+                                      const double* __restrict qj, const double* __restrict qq,
+                                      int columns, double x_first, double y0, double sx, double sy,
+                                      double* __restrict cells) {
+  double* __restrict sums[DepthCells::kSums];
+  for (int k = 0; k < DepthCells::kSums; ++k)
+    sums[k] = cells + static_cast<std::ptrdiff_t>(k) * columns;
+  for (int c = 0; c < columns; ++c) {
+    const int u = c * kSide;
+    const double x0 = x_first + c * (kSide * sx);
+    const double count = fold(n + u), depth = fold(q + u);
+    const double xi = sx * fold_by_i(n + u), yj = sy * fold(nj + u);
+    sums[DepthCells::kCount][c] = count;
+    sums[DepthCells::kX][c] = x0 * count + xi;
+    sums[DepthCells::kY][c] = y0 * count + yj;
+    sums[DepthCells::kXX][c] = x0 * x0 * count + 2.0 * x0 * xi + sx * sx * fold_by_ii(n + u);
+    sums[DepthCells::kXY][c] = x0 * y0 * count + x0 * yj + y0 * xi + sx * sy * fold_by_i(nj + u);
+    sums[DepthCells::kYY][c] = y0 * y0 * count + 2.0 * y0 * yj + sy * sy * fold(njj + u);
+    sums[DepthCells::kQ][c] = depth;
+    sums[DepthCells::kQX][c] = x0 * depth + sx * fold_by_i(q + u);
+    sums[DepthCells::kQY][c] = y0 * depth + sy * fold(qj + u);
+    sums[DepthCells::kQQ][c] = fold(qq + u);
   }
+}
 
-  // x = x0 + i·sx, y = y0 + j·sy.
-  InverseDepthSums in_rays(double x0, double y0, double sx, double sy) const {
-    InverseDepthSums r;
-    r.count = count;
-    r.x = x0 * count + sx * i;
-    r.y = y0 * count + sy * j;
-    r.xx = x0 * x0 * count + 2.0 * x0 * sx * i + sx * sx * ii;
-    r.yy = y0 * y0 * count + 2.0 * y0 * sy * j + sy * sy * jj;
-    r.xy = x0 * y0 * count + x0 * sy * j + y0 * sx * i + sx * sy * ij;
-    r.q = q;
-    r.qx = x0 * q + sx * qi;
-    r.qy = y0 * q + sy * qj;
-    r.qq = qq;
-    return r;
-  }
-};
+// Readings from `near` to `far` [m], in millimetres; never those that mean none.
+std::pair<std::uint16_t, std::uint16_t> readings_between(double near, double far) {
+  return {static_cast<std::uint16_t>(std::clamp(std::ceil(near * 1000.0), 1.0, 65534.0)),
+          static_cast<std::uint16_t>(std::clamp(std::floor(far * 1000.0), 0.0, 65534.0))};
+}
 
 }  // namespace
 
@@ -79,20 +120,6 @@ InverseDepthSums& InverseDepthSums::operator+=(const InverseDepthSums& o) {
   qx += o.qx;
   qy += o.qy;
   qq += o.qq;
-  return *this;
-}
-
-InverseDepthSums& InverseDepthSums::operator-=(const InverseDepthSums& o) {
-  count -= o.count;
-  x -= o.x;
-  y -= o.y;
-  xx -= o.xx;
-  xy -= o.xy;
-  yy -= o.yy;
-  q -= o.q;
-  qx -= o.qx;
-  qy -= o.qy;
-  qq -= o.qq;
   return *this;
 }
 
@@ -111,61 +138,47 @@ std::optional<InverseDepthFit> fit_plane(const InverseDepthSums& s) {
 
 DepthCells::DepthCells(const geometry::DepthImage& depth, const geometry::CameraModel& camera,
                        double near, double far)
-    : columns_((depth.width + kSide - 1) / kSide), rows_((depth.height + kSide - 1) / kSide) {
-  cells_.resize(static_cast<std::size_t>(size()));
-  read(depth, camera, near, far);
-  integrate();
-}
-
-void DepthCells::read(const geometry::DepthImage& depth, const geometry::CameraModel& camera,
-                      double near, double far) {
-  const std::vector<double> inverse = inverse_table(near, far);
-  std::vector<OffsetSums> line(static_cast<std::size_t>(columns_));
-  for (int row = 0; row < rows_; ++row) {
-    std::fill(line.begin(), line.end(), OffsetSums{});
-    const int height = std::min(kSide, depth.height - row * kSide);
-    for (int j = 0; j < height; ++j) {
-      const std::uint16_t* pixels =
-          depth.millimetres.data() + static_cast<std::ptrdiff_t>(row * kSide + j) * depth.width;
-      for (int column = 0; column < columns_; ++column) {
-        const int width = std::min(kSide, depth.width - column * kSide);
-        std::array<double, kSide> values{};
-        for (int i = 0; i < width; ++i) values[static_cast<std::size_t>(i)] = inverse[pixels[i]];
-        line[static_cast<std::size_t>(column)].add_row(values.data(), kSide, j);
-        pixels += kSide;
+    : columns_((depth.width + kSide - 1) / kSide),
+      rows_((depth.height + kSide - 1) / kSide),
+      sums_(static_cast<std::size_t>(columns_ * rows_ * kSums)) {
+  const auto [nearest, farthest] = readings_between(near, far);
+  const int width = columns_ * kSide;
+  ColumnSums columns(width);
+  std::vector<std::uint16_t> padded;  // rows that are not whole
+  for (int r = 0; r < rows_; ++r) {
+    const std::uint16_t* pixels =
+        depth.millimetres.data() + static_cast<std::ptrdiff_t>(r * kSide) * depth.width;
+    int stride = depth.width;
+    const int height = std::min(kSide, depth.height - r * kSide);
+    if (depth.width < width || height < kSide) {
+      padded.assign(static_cast<std::size_t>(width * kSide), geometry::DepthImage::kNoReading);
+      for (int j = 0; j < height; ++j) {
+        std::copy_n(pixels + static_cast<std::ptrdiff_t>(j) * stride, depth.width,
+                    padded.begin() + static_cast<std::ptrdiff_t>(j) * width);
       }
+      pixels = padded.data();
+      stride = width;
     }
-    for (int column = 0; column < columns_; ++column) {
-      const Eigen::Vector3d ray = camera.ray(column * kSide, row * kSide);
-      cells_[static_cast<std::size_t>(index(column, row))] =
-          line[static_cast<std::size_t>(column)].in_rays(ray.x(), ray.y(), 1.0 / camera.fx,
-                                                         1.0 / camera.fy);
-    }
+    sum_columns(pixels, stride, width, nearest, farthest, columns.n, columns.nj, columns.njj,
+                columns.q, columns.qj, columns.qq);
+    fold_columns(columns.n, columns.nj, columns.njj, columns.q, columns.qj, columns.qq, columns_,
+                 -camera.cx / camera.fx, (r * kSide - camera.cy) / camera.fy, 1.0 / camera.fx,
+                 1.0 / camera.fy, sums_.data() + static_cast<std::ptrdiff_t>(r * kSums) * columns_);
   }
 }
 
-void DepthCells::integrate() {
-  integral_.resize(static_cast<std::size_t>((columns_ + 1) * (rows_ + 1)));
-  for (int row = 0; row < rows_; ++row) {
-    InverseDepthSums line;
-    for (int column = 0; column < columns_; ++column) {
-      line += cell(index(column, row));
-      InverseDepthSums sum = corner(column + 1, row);
-      sum += line;
-      integral_[static_cast<std::size_t>((row + 1) * (columns_ + 1) + column + 1)] = sum;
-    }
-  }
+InverseDepthSums DepthCells::cell(int column, int r) const {
+  const double* s = row(r, kCount) + column;
+  const std::ptrdiff_t n = columns_;
+  return {s[0],     s[n],     s[2 * n], s[3 * n], s[4 * n],
+          s[5 * n], s[6 * n], s[7 * n], s[8 * n], s[9 * n]};
 }
 
 InverseDepthSums DepthCells::window(int c0, int r0, int c1, int r1) const {
-  c0 = std::clamp(c0, 0, columns_);
-  c1 = std::clamp(c1, c0, columns_);
-  r0 = std::clamp(r0, 0, rows_);
-  r1 = std::clamp(r1, r0, rows_);
-  InverseDepthSums sum = corner(c1, r1);
-  sum -= corner(c0, r1);
-  sum -= corner(c1, r0);
-  sum += corner(c0, r0);
+  InverseDepthSums sum;
+  for (int r = std::max(0, r0); r < std::min(r1, rows_); ++r) {
+    for (int c = std::max(0, c0); c < std::min(c1, columns_); ++c) sum += cell(c, r);
+  }
   return sum;
 }
 

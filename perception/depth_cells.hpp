@@ -22,7 +22,6 @@ struct InverseDepthSums {
   double q = 0.0, qx = 0.0, qy = 0.0, qq = 0.0;           // q [1/m]
 
   InverseDepthSums& operator+=(const InverseDepthSums& other);
-  InverseDepthSums& operator-=(const InverseDepthSums& other);
 
   double mean_depth() const { return count / q; }  // harmonic [m]
   /// Point [m] at the mean ray and mean depth; on a plane if all pixels are. Needs count > 0.
@@ -45,10 +44,15 @@ struct InverseDepthFit {
 /// @brief Fits a plane; nothing for fewer than six pixels or pixels on one line.
 std::optional<InverseDepthFit> fit_plane(const InverseDepthSums& sums);
 
-/// @brief Sums of square cells of a depth image, and of any rectangle of cells at constant cost.
+/// @brief Sums of square cells of a depth image.
+///
+/// Row by row, and within a row sum by sum: what is done to all cells of a row runs over contiguous
+/// numbers.
 class DepthCells {
  public:
   static constexpr int kSide = 4;  // of a cell [pixel]
+  /// The sums of InverseDepthSums, in its order.
+  enum Sum : int { kCount, kX, kY, kXX, kXY, kYY, kQ, kQX, kQY, kQQ, kSums };
 
   /// @brief Reads every pixel once. Readings outside [near, far] [m] count as none. Cells at the
   /// right and lower border may be incomplete.
@@ -60,23 +64,21 @@ class DepthCells {
   int size() const { return columns_ * rows_; }
   int index(int column, int row) const { return row * columns_ + column; }
 
-  const InverseDepthSums& cell(int i) const { return cells_[static_cast<std::size_t>(i)]; }
+  InverseDepthSums cell(int column, int row) const;
+  InverseDepthSums cell(int i) const { return cell(i % columns_, i / columns_); }
+
+  /// @brief One of the sums of all cells of a row.
+  const double* row(int r, Sum sum) const {
+    return sums_.data() + static_cast<std::ptrdiff_t>(r * kSums + sum) * columns_;
+  }
 
   /// @brief Sums over the cells of columns [c0, c1) and rows [r0, r1), cut off at the border.
   InverseDepthSums window(int c0, int r0, int c1, int r1) const;
 
  private:
-  const InverseDepthSums& corner(int column, int row) const {
-    return integral_[static_cast<std::size_t>(row * (columns_ + 1) + column)];
-  }
-  void read(const geometry::DepthImage& depth, const geometry::CameraModel& camera, double near,
-            double far);
-  void integrate();
-
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<InverseDepthSums> cells_;
-  std::vector<InverseDepthSums> integral_;  // (columns + 1) x (rows + 1)
+  std::vector<double> sums_;  // rows x kSums x columns
 };
 
 }  // namespace geomap::perception

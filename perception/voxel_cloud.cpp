@@ -40,7 +40,7 @@ VoxelCloud make_voxel_cloud(const DepthCells& cells, const std::vector<CellNorma
   for (int i = 0; i < cells.size(); ++i) {
     const CellNormal& normal = normals[static_cast<std::size_t>(i)];
     if (normal.kind != CellNormal::Kind::kPlanar) continue;
-    const InverseDepthSums& cell = cells.cell(i);
+    const InverseDepthSums cell = cells.cell(i);
     const Eigen::Vector3d point = cell.mean_point();
     const auto [at, is_new] = voxel_at.try_emplace(voxel_key(evenly_dense(point, reference), leaf),
                                                    static_cast<int>(cloud.voxels.size()));

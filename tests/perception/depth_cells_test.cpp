@@ -55,10 +55,10 @@ TEST(DepthCells, AWindowIsTheSumOfItsPixels) {
   EXPECT_NEAR(found.xx, expected.xx, 1e-9);
   EXPECT_NEAR(found.xy, expected.xy, 1e-9);
   EXPECT_NEAR(found.yy, expected.yy, 1e-9);
-  EXPECT_NEAR(found.q, expected.q, 1e-9);
-  EXPECT_NEAR(found.qx, expected.qx, 1e-9);
-  EXPECT_NEAR(found.qy, expected.qy, 1e-9);
-  EXPECT_NEAR(found.qq, expected.qq, 1e-9);
+  EXPECT_NEAR(found.q, expected.q, 1e-7 * expected.q);
+  EXPECT_NEAR(found.qx, expected.qx, 1e-7 * expected.q);
+  EXPECT_NEAR(found.qy, expected.qy, 1e-7 * expected.q);
+  EXPECT_NEAR(found.qq, expected.qq, 1e-7 * expected.q);
 }
 
 TEST(DepthCells, AFitFindsThePlaneAndItsRounding) {

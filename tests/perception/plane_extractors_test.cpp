@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// One suite of properties for all plane extractors.
+#include "perception/organized_extractor.hpp"
 #include "perception/ransac_extractor.hpp"
 
 #include <array>
@@ -54,11 +56,12 @@ Match match(const PlaneObservation& plane, const std::vector<Rectangle>& scene,
 
 // Every rectangle of which at least `least_pixels` are visible is found as one plane within the
 // bounds, and nothing else is found.
+template <typename Extractor>
 void expect_scene(const std::vector<Rectangle>& scene, const Eigen::Isometry3d& T_world_camera,
                   double sigma, double max_angle, double max_offset, double min_overlap,
                   const geometry::CameraModel& camera = testing::kinect_camera()) {
   const Rendering rendering = testing::render(scene, camera, T_world_camera, sigma);
-  const auto planes = RansacExtractor().extract(rendering.frame, 7, std::nullopt).planes;
+  const auto planes = Extractor().extract(rendering.frame, 7, std::nullopt).planes;
   std::set<int> found;
   for (const PlaneObservation& plane : planes) {
     const Match m = match(plane, scene, rendering, T_world_camera);
@@ -85,46 +88,56 @@ Rectangle facing(const std::string& name, const Vector3d& center, double half_u,
   return {name, center, Vector3d::UnitX(), -Vector3d::UnitY(), half_u, half_v, {200, 100, 50}, {}};
 }
 
+template <typename Extractor>
 std::vector<PlaneObservation> planes_at_origin(const std::vector<Rectangle>& scene,
                                                double sigma = 0.0,
-                                               const RansacExtractorConfig& config = {}) {
+                                               const typename Extractor::Config& config = {}) {
   const Rendering rendering =
       testing::render(scene, testing::kinect_camera(), Eigen::Isometry3d::Identity(), sigma);
-  return RansacExtractor(config).extract(rendering.frame, 1, std::nullopt).planes;
+  return Extractor(config).extract(rendering.frame, 1, std::nullopt).planes;
 }
 
-TEST(RansacExtractor, ANoiseFreeRoomIsFoundExactly) {
-  expect_scene(testing::small_room(), view_into_room(), 0.0, 0.05 * kDegree, 0.0005, 0.95);
+template <typename Extractor>
+class PlaneExtractors : public ::testing::Test {};
+
+using Extractors = ::testing::Types<RansacExtractor, OrganizedExtractor>;
+TYPED_TEST_SUITE(PlaneExtractors, Extractors);
+
+TYPED_TEST(PlaneExtractors, ANoiseFreeRoomIsFoundExactly) {
+  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.0, 0.05 * kDegree, 0.0005,
+                          0.95);
 }
 
-TEST(RansacExtractor, WhiteNoiseOfFiveMillimetresLeavesEveryPlaneOfTheRoom) {
-  expect_scene(testing::small_room(), view_into_room(), 0.005, 0.1 * kDegree, 0.001, 0.95);
+TYPED_TEST(PlaneExtractors, WhiteNoiseOfFiveMillimetresLeavesEveryPlaneOfTheRoom) {
+  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.005, 0.1 * kDegree, 0.001,
+                          0.95);
 }
 
-TEST(RansacExtractor, WhiteNoiseOfTwentyMillimetresLeavesEveryPlaneOfTheRoom) {
-  expect_scene(testing::small_room(), view_into_room(), 0.020, 0.3 * kDegree, 0.003, 0.93);
+TYPED_TEST(PlaneExtractors, WhiteNoiseOfTwentyMillimetresLeavesEveryPlaneOfTheRoom) {
+  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.020, 0.3 * kDegree, 0.003,
+                          0.93);
 }
 
 // A block before a wall, its top seen at a flat angle: where planes meet, single readings of such
 // noise say little, and nothing may be made up across the edges.
-TEST(RansacExtractor, EdgesOfABlockStaySharpUnderTwentyMillimetresOfNoise) {
+TYPED_TEST(PlaneExtractors, EdgesOfABlockStaySharpUnderTwentyMillimetresOfNoise) {
   const std::vector<Rectangle> block = {
       {"front", {0.0, 0.0, 0.45}, -Vector3d::UnitY(), Vector3d::UnitZ(), 1.2, 0.45, {}, {}},
       {"top", {0.3, 0.0, 0.9}, Vector3d::UnitX(), Vector3d::UnitY(), 0.3, 1.2, {}, {}},
       {"wall", {0.6, 0.0, 1.25}, -Vector3d::UnitY(), Vector3d::UnitZ(), 1.2, 1.25, {}, {}},
       {"floor", {-1.5, 0.0, 0.0}, Vector3d::UnitX(), Vector3d::UnitY(), 2.1, 2.2, {}, {}}};
   for (const double y : {-0.6, 0.0}) {
-    expect_scene(block, testing::look_at({-2.0, y, 1.4}, {0.3, 0.2 * y, 0.7}), 0.020, 1.0 * kDegree,
-                 0.006, 0.90);
+    expect_scene<TypeParam>(block, testing::look_at({-2.0, y, 1.4}, {0.3, 0.2 * y, 0.7}), 0.020,
+                            1.0 * kDegree, 0.006, 0.90);
   }
 }
 
-TEST(RansacExtractor, AQuarterOfTheResolutionShowsTheSameRoom) {
-  expect_scene(testing::small_room(), view_into_room(), 0.0, 0.2 * kDegree, 0.001, 0.9,
-               testing::kinect_camera(4));
+TYPED_TEST(PlaneExtractors, AQuarterOfTheResolutionShowsTheSameRoom) {
+  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.0, 0.2 * kDegree, 0.001, 0.9,
+                          testing::kinect_camera(4));
 }
 
-TEST(RansacExtractor, ABookOnATableIsAPlaneOfItsOwn) {
+TYPED_TEST(PlaneExtractors, ABookOnATableIsAPlaneOfItsOwn) {
   std::vector<Rectangle> scene = testing::small_room();
   Rectangle book = scene[3];
   book.name = "book";
@@ -132,13 +145,13 @@ TEST(RansacExtractor, ABookOnATableIsAPlaneOfItsOwn) {
   book.half_u = 0.15;
   book.half_v = 0.12;
   scene.push_back(book);
-  expect_scene(scene, view_into_room(), 0.003, 0.5 * kDegree, 0.002, 0.9);
+  expect_scene<TypeParam>(scene, view_into_room(), 0.003, 0.5 * kDegree, 0.002, 0.9);
 }
 
-TEST(RansacExtractor, AWindowStaysOpen) {
+TYPED_TEST(PlaneExtractors, AWindowStaysOpen) {
   Rectangle wall = facing("wall", {0.0, 0.0, 2.0}, 0.9, 0.6);
   wall.openings = {{Eigen::Vector2d(-0.2, -0.1), Eigen::Vector2d(0.3, 0.3)}};
-  const auto planes = planes_at_origin({wall}, 0.003);
+  const auto planes = planes_at_origin<TypeParam>({wall}, 0.003);
   ASSERT_EQ(planes.size(), 1u);
   const geometry::Polygon& polygon = planes[0].surface.polygon;
   ASSERT_EQ(polygon.parts.size(), 1u);
@@ -147,8 +160,9 @@ TEST(RansacExtractor, AWindowStaysOpen) {
   EXPECT_NEAR(geometry::area(polygon), 1.8 * 1.2 - 0.5 * 0.4, 0.03);
 }
 
-TEST(RansacExtractor, TheOutlineOfARectangleIsFourCornersWithoutShrinking) {
-  const auto planes = planes_at_origin({facing("board", {0.0, 0.0, 1.5}, 0.4, 0.3)}, 0.004);
+TYPED_TEST(PlaneExtractors, TheOutlineOfARectangleIsFourCornersWithoutShrinking) {
+  const auto planes =
+      planes_at_origin<TypeParam>({facing("board", {0.0, 0.0, 1.5}, 0.4, 0.3)}, 0.004);
   ASSERT_EQ(planes.size(), 1u);
   const geometry::PlanarPolygon& surface = planes[0].surface;
   EXPECT_LE(geometry::vertex_count(surface.polygon), 8u);
@@ -158,22 +172,22 @@ TEST(RansacExtractor, TheOutlineOfARectangleIsFourCornersWithoutShrinking) {
   EXPECT_NEAR(geometry::area(surface.polygon), 0.48, 0.48 * 0.02);
 }
 
-TEST(RansacExtractor, ObliqueNoiseDoesNotTiltASmallPlane) {
+TYPED_TEST(PlaneExtractors, ObliqueNoiseDoesNotTiltASmallPlane) {
   // 0.4 m, seen at 60 degrees: least squares without the noise term turns it by 0.012 rad.
   const Eigen::Isometry3d T_world_camera = testing::look_at({0.0, -1.3, 0.75}, {0.0, 0.0, 0.0});
   const std::vector<Rectangle> scene = {
       {"tile", Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY(), 0.2, 0.2, {9, 9, 9}, {}}};
-  expect_scene(scene, T_world_camera, 0.020, 0.006, 0.003, 0.85);
+  expect_scene<TypeParam>(scene, T_world_camera, 0.020, 0.006, 0.003, 0.85);
 }
 
-TEST(RansacExtractor, TheTwoSidesOfADoorLookAtTheirCameras) {
+TYPED_TEST(PlaneExtractors, TheTwoSidesOfADoorLookAtTheirCameras) {
   const std::vector<Rectangle> door = {
       {"door", {0.0, 0.0, 1.0}, Vector3d::UnitX(), Vector3d::UnitZ(), 0.5, 0.6, {1, 2, 3}, {}}};
   std::vector<Vector3d> normals;
   for (const double side : {-2.0, 2.0}) {
     const Eigen::Isometry3d T_world_camera = testing::look_at({0.3, side, 1.2}, {0.0, 0.0, 1.0});
     const Rendering rendering = testing::render(door, testing::kinect_camera(), T_world_camera);
-    const auto planes = RansacExtractor().extract(rendering.frame, 1, std::nullopt).planes;
+    const auto planes = TypeParam().extract(rendering.frame, 1, std::nullopt).planes;
     ASSERT_EQ(planes.size(), 1u);
     normals.push_back(T_world_camera.linear() * planes[0].surface.plane.normal);
   }
@@ -181,27 +195,27 @@ TEST(RansacExtractor, TheTwoSidesOfADoorLookAtTheirCameras) {
   EXPECT_NEAR(normals[1].y(), 1.0, 1e-4);
 }
 
-TEST(RansacExtractor, CoplanarPartsFarApartAreTwoPlanes) {
-  const auto planes = planes_at_origin(
+TYPED_TEST(PlaneExtractors, CoplanarPartsFarApartAreTwoPlanes) {
+  const auto planes = planes_at_origin<TypeParam>(
       {facing("left", {-0.4, 0.0, 1.5}, 0.25, 0.3), facing("right", {0.4, 0.0, 1.5}, 0.25, 0.3)});
   EXPECT_EQ(planes.size(), 2u);
 }
 
-TEST(RansacExtractor, CoplanarPartsWithANarrowGapAreOnePlane) {
-  const auto planes = planes_at_origin(
+TYPED_TEST(PlaneExtractors, CoplanarPartsWithANarrowGapAreOnePlane) {
+  const auto planes = planes_at_origin<TypeParam>(
       {facing("left", {-0.26, 0.0, 1.5}, 0.25, 0.3), facing("right", {0.26, 0.0, 1.5}, 0.25, 0.3)});
   EXPECT_EQ(planes.size(), 1u);
 }
 
-TEST(RansacExtractor, ASurfaceSeenAlongItselfIsNotReported) {
+TYPED_TEST(PlaneExtractors, ASurfaceSeenAlongItselfIsNotReported) {
   const Eigen::Isometry3d T_world_camera = testing::look_at({0.0, -2.0, 0.05}, {0.0, 1.0, 0.02});
   const std::vector<Rectangle> floor = {
       {"floor", Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY(), 2.0, 1.2, {9, 9, 9}, {}}};
   const Rendering rendering = testing::render(floor, testing::kinect_camera(), T_world_camera);
-  EXPECT_TRUE(RansacExtractor().extract(rendering.frame, 1, std::nullopt).planes.empty());
+  EXPECT_TRUE(TypeParam().extract(rendering.frame, 1, std::nullopt).planes.empty());
 }
 
-TEST(RansacExtractor, ASphereOfNoiseHasNoPlane) {
+TYPED_TEST(PlaneExtractors, ASphereOfNoiseHasNoPlane) {
   Rendering rendering = testing::render({facing("board", {0.0, 0.0, 2.0}, 3.0, 3.0)},
                                         testing::kinect_camera(), Eigen::Isometry3d::Identity());
   std::mt19937 generator(5);
@@ -209,10 +223,10 @@ TEST(RansacExtractor, ASphereOfNoiseHasNoPlane) {
   for (auto& reading : rendering.frame.depth.millimetres) {
     reading = static_cast<std::uint16_t>(any(generator));
   }
-  EXPECT_TRUE(RansacExtractor().extract(rendering.frame, 1, std::nullopt).planes.empty());
+  EXPECT_TRUE(TypeParam().extract(rendering.frame, 1, std::nullopt).planes.empty());
 }
 
-TEST(RansacExtractor, QuantisationTerracesStayOneWall) {
+TYPED_TEST(PlaneExtractors, QuantisationTerracesStayOneWall) {
   Rectangle wall = facing("wall", {0.0, 0.0, 2.8}, 1.4, 1.0);
   wall.u = Vector3d(std::cos(0.2), 0.0, std::sin(0.2));
   Rendering rendering =
@@ -222,14 +236,14 @@ TEST(RansacExtractor, QuantisationTerracesStayOneWall) {
     const double disparity = std::round(8.0 * 585.0 * 75.0 / reading);
     reading = static_cast<std::uint16_t>(std::lround(8.0 * 585.0 * 75.0 / disparity));
   }
-  const auto planes = RansacExtractor().extract(rendering.frame, 1, std::nullopt).planes;
+  const auto planes = TypeParam().extract(rendering.frame, 1, std::nullopt).planes;
   ASSERT_EQ(planes.size(), 1u);
   const geometry::Plane truth = wall.plane_seen_from(Vector3d::Zero());
   EXPECT_LT(geometry::angle_between(planes[0].surface.plane, truth), 0.3 * kDegree);
   EXPECT_NEAR(geometry::area(planes[0].surface.polygon), 2.8 * 2.0, 0.15);
 }
 
-TEST(RansacExtractor, ScatteredMissingReadingsLeaveAClosedSurface) {
+TYPED_TEST(PlaneExtractors, ScatteredMissingReadingsLeaveAClosedSurface) {
   Rendering rendering = testing::render({facing("wall", {0.0, 0.0, 1.8}, 0.8, 0.6)},
                                         testing::kinect_camera(), Eigen::Isometry3d::Identity());
   std::mt19937 generator(3);
@@ -237,14 +251,15 @@ TEST(RansacExtractor, ScatteredMissingReadingsLeaveAClosedSurface) {
     const auto draw = generator() % 10;
     if (draw < 2) reading = draw == 0 ? 0 : 65535;
   }
-  const auto planes = RansacExtractor().extract(rendering.frame, 1, std::nullopt).planes;
+  const auto planes = TypeParam().extract(rendering.frame, 1, std::nullopt).planes;
   ASSERT_EQ(planes.size(), 1u);
   EXPECT_TRUE(planes[0].surface.polygon.parts[0].holes.empty());
   EXPECT_NEAR(geometry::area(planes[0].surface.polygon), 1.6 * 1.2, 0.03);
 }
 
-TEST(RansacExtractor, StatisticsAreThoseOfTheInliers) {
-  const auto planes = planes_at_origin({facing("board", {0.0, 0.0, 1.5}, 0.4, 0.3)}, 0.004);
+TYPED_TEST(PlaneExtractors, StatisticsAreThoseOfTheInliers) {
+  const auto planes =
+      planes_at_origin<TypeParam>({facing("board", {0.0, 0.0, 1.5}, 0.4, 0.3)}, 0.004);
   ASSERT_EQ(planes.size(), 1u);
   const double pixels = 0.8 * 0.6 * 585.0 * 585.0 / (1.5 * 1.5);
   EXPECT_NEAR(static_cast<double>(planes[0].inliers), pixels, 0.02 * pixels);
@@ -254,10 +269,10 @@ TEST(RansacExtractor, StatisticsAreThoseOfTheInliers) {
   EXPECT_NEAR(planes[0].color[2], 50.0, 1e-9);
 }
 
-TEST(RansacExtractor, EveryPlanesPixelsAreLabelled) {
+TYPED_TEST(PlaneExtractors, EveryPlanesPixelsAreLabelled) {
   const Rendering rendering =
       testing::render(testing::small_room(), testing::kinect_camera(), view_into_room());
-  const auto found = RansacExtractor().extract(rendering.frame, 1, std::nullopt);
+  const auto found = TypeParam().extract(rendering.frame, 1, std::nullopt);
   ASSERT_EQ(found.label.size(), rendering.frame.depth.millimetres.size());
   const geometry::CameraModel& camera = rendering.frame.depth_camera;
   std::vector<std::int64_t> pixels(found.planes.size(), 0);
@@ -272,30 +287,30 @@ TEST(RansacExtractor, EveryPlanesPixelsAreLabelled) {
   for (std::size_t k = 0; k < pixels.size(); ++k) EXPECT_EQ(pixels[k], found.planes[k].inliers);
 }
 
-TEST(RansacExtractor, LargerPlanesComeFirst) {
+TYPED_TEST(PlaneExtractors, LargerPlanesComeFirst) {
   const Rendering rendering =
       testing::render(testing::small_room(), testing::kinect_camera(), view_into_room());
-  const auto planes = RansacExtractor().extract(rendering.frame, 1, std::nullopt).planes;
+  const auto planes = TypeParam().extract(rendering.frame, 1, std::nullopt).planes;
   ASSERT_GE(planes.size(), 3u);
   EXPECT_TRUE(std::is_sorted(planes.begin(), planes.end(),
                              [](const auto& a, const auto& b) { return a.inliers > b.inliers; }));
 }
 
-TEST(RansacExtractor, OnlyTheWantedOrientationIsReported) {
+TYPED_TEST(PlaneExtractors, OnlyTheWantedOrientationIsReported) {
   const Eigen::Isometry3d T_world_camera = view_into_room();
   const Rendering rendering =
       testing::render(testing::small_room(), testing::kinect_camera(), T_world_camera);
   const Vector3d up_camera = T_world_camera.linear().transpose() * Vector3d::UnitZ();
   for (const char* orientation : {"horizontal", "vertical"}) {
-    RansacExtractorConfig config;
+    typename TypeParam::Config config;
     config.orientation = orientation;
-    const auto planes = RansacExtractor(config).extract(rendering.frame, 1, up_camera).planes;
+    const auto planes = TypeParam(config).extract(rendering.frame, 1, up_camera).planes;
     EXPECT_EQ(planes.size(), 2u) << orientation;
     for (const PlaneObservation& plane : planes) {
       const double rise = std::abs(plane.surface.plane.normal.dot(up_camera));
       EXPECT_NEAR(rise, std::string(orientation) == "horizontal" ? 1.0 : 0.0, 0.01);
     }
-    EXPECT_THROW(RansacExtractor(config).extract(rendering.frame, 1, std::nullopt),
+    EXPECT_THROW(TypeParam(config).extract(rendering.frame, 1, std::nullopt),
                  std::invalid_argument);
   }
 }
@@ -310,10 +325,10 @@ bool equal(const ExtractedPlanes& a, const ExtractedPlanes& b) {
                     });
 }
 
-TEST(RansacExtractor, TheSameSeedGivesTheSamePlanesToTheLastBitFromAnyThread) {
+TYPED_TEST(PlaneExtractors, TheSameSeedGivesTheSamePlanesToTheLastBitFromAnyThread) {
   const Rendering rendering =
       testing::render(testing::small_room(), testing::kinect_camera(), view_into_room(), 0.01);
-  const RansacExtractor extractor;
+  const TypeParam extractor;
   const auto run = [&] { return extractor.extract(rendering.frame, 42, std::nullopt); };
   const ExtractedPlanes here = run();
   auto first = std::async(std::launch::async, run);
@@ -323,10 +338,10 @@ TEST(RansacExtractor, TheSameSeedGivesTheSamePlanesToTheLastBitFromAnyThread) {
   EXPECT_TRUE(equal(here, second.get()));
 }
 
-TEST(RansacExtractor, AnotherSeedFindsTheSameSurfaces) {
+TYPED_TEST(PlaneExtractors, AnotherSeedFindsTheSameSurfaces) {
   const Rendering rendering =
       testing::render(testing::small_room(), testing::kinect_camera(), view_into_room(), 0.01);
-  const RansacExtractor extractor;
+  const TypeParam extractor;
   const auto planes = extractor.extract(rendering.frame, 1, std::nullopt).planes;
   for (const std::uint64_t seed : {2ULL, 3ULL, 1000000000000000ULL}) {
     const auto others = extractor.extract(rendering.frame, seed, std::nullopt).planes;
@@ -338,8 +353,8 @@ TEST(RansacExtractor, AnotherSeedFindsTheSameSurfaces) {
   }
 }
 
-TEST(RansacExtractor, FramesWithoutAnythingHaveNoPlanes) {
-  const RansacExtractor extractor;
+TYPED_TEST(PlaneExtractors, FramesWithoutAnythingHaveNoPlanes) {
+  const TypeParam extractor;
   geometry::RgbdFrame frame;
   EXPECT_TRUE(extractor.extract(frame, 1, std::nullopt).planes.empty());
   const std::vector<std::array<int, 2>> sizes = {{1, 1}, {3, 2}, {5, 7}, {641, 3}, {640, 480}};
@@ -355,18 +370,18 @@ TEST(RansacExtractor, FramesWithoutAnythingHaveNoPlanes) {
   }
 }
 
-TEST(RansacExtractor, SizesThatAreNoMultipleOfACellAreSeenToTheBorder) {
+TYPED_TEST(PlaneExtractors, SizesThatAreNoMultipleOfACellAreSeenToTheBorder) {
   geometry::RgbdFrame frame;
   frame.depth = {317, 203, std::vector<std::uint16_t>(317 * 203, 1000)};
   frame.depth_camera = {317, 203, 300.0, 300.0, 158.0, 101.0};
-  const auto planes = RansacExtractor().extract(frame, 1, std::nullopt).planes;
+  const auto planes = TypeParam().extract(frame, 1, std::nullopt).planes;
   ASSERT_EQ(planes.size(), 1u);
   EXPECT_EQ(planes[0].inliers, 317 * 203);
   EXPECT_NEAR(geometry::area(planes[0].surface.polygon), 317.0 * 203.0 / 9e4, 0.002);
 }
 
-TEST(RansacExtractor, WrongFramesAreTheCallersMistake) {
-  const RansacExtractor extractor;
+TYPED_TEST(PlaneExtractors, WrongFramesAreTheCallersMistake) {
+  const TypeParam extractor;
   geometry::RgbdFrame frame;
   frame.depth = {4, 4, std::vector<std::uint16_t>(15, 1000)};
   frame.depth_camera = {4, 4, 5.0, 5.0, 2.0, 2.0};
@@ -383,6 +398,15 @@ TEST(RansacExtractorConfig, DefaultsAreValidAndEverySettingIsVisited) {
   std::set<std::string> names;
   RansacExtractorConfig::visit(config, [&](const char* name, auto&) { names.insert(name); });
   EXPECT_EQ(names.size(), 22u);
+}
+
+TEST(OrganizedExtractorConfig, DefaultsAreValidAndNonsenseIsNamed) {
+  OrganizedExtractorConfig config;
+  EXPECT_TRUE(config.validate().empty());
+  config.max_hole_area = -1.0;
+  config.min_pixels = 0;
+  EXPECT_EQ(config.validate().size(), 2u);
+  EXPECT_THROW(OrganizedExtractor{config}, std::invalid_argument);
 }
 
 TEST(RansacExtractorConfig, NonsenseIsNamed) {

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "perception/plane_extractor.hpp"
+#include "perception/surface_region.hpp"
+
+namespace geomap::perception {
+namespace {
+
+constexpr int kReach = 3;          // cells between regions that count as touching [cell]
+constexpr int kLeastContacts = 4;  // pairs of cells
+// Share of the tolerance that a region's rms about the joint plane may take. A half is 1.5 sigma.
+constexpr double kRmsShare = 0.5;
+
+// A far smaller region within nearly the whole tolerance of a larger one is a shell of left-overs,
+// or relief that the sensor cannot tell from the surface: the larger one takes its cells, but its
+// fit stays.
+constexpr double kShellRmsShare = 0.8;
+constexpr double kShellPixels = 0.3;      // at most, over those of the larger region
+constexpr double kShellAngleRatio = 2.0;  // largest angle, over that of joining
+
+// A region across an edge that noise has made up: its cells lie on the planes beside it nearly as
+// well as noise lets them. Mean square of what they are off, over that of noise; far more than this
+// is cut off, so that a few cells do not decide.
+constexpr double kMadeUp = 3.0;
+constexpr double kFarOff = 16.0;
+
+using Contacts = std::map<std::pair<int, int>, int>;  // pairs of regions, smaller index first
+
+Contacts count_contacts(const DepthCells& cells, const std::vector<std::int16_t>& label) {
+  Contacts contacts;
+  const int columns = cells.columns(), rows = cells.rows();
+  const auto look = [&](std::int16_t own, int c, int r) {
+    const std::int16_t other = label[static_cast<std::size_t>(r * columns + c)];
+    if (other >= 0 && other != own) ++contacts[std::minmax<int>(own, other)];
+  };
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) {
+      const std::int16_t own = label[static_cast<std::size_t>(r * columns + c)];
+      if (own < 0) continue;
+      for (int step = 1; step <= kReach; ++step) {
+        if (c + step < columns) look(own, c + step, r);
+        if (r + step < rows) look(own, c, r + step);
+      }
+    }
+  }
+  return contacts;
+}
+
+class Joiner {
+ public:
+  Joiner(const std::vector<CellMean>& means, const DepthTolerance& tolerance, double max_angle,
+         std::vector<SurfaceRegion>& regions, std::vector<std::int16_t>& label)
+      : means_(means),
+        tolerance_(tolerance),
+        max_angle_(max_angle),
+        regions_(regions),
+        label_(label),
+        joined_to_(regions.size()) {
+    for (std::size_t i = 0; i < joined_to_.size(); ++i) joined_to_[i] = static_cast<int>(i);
+  }
+
+  void join_all(const Contacts& contacts) {
+    bool is_changed = true;
+    while (is_changed) {
+      is_changed = false;
+      for (const auto& [pair, count] : contacts) {
+        const int a = find(pair.first), b = find(pair.second);
+        if (a == b || count < kLeastContacts) continue;
+        is_changed |= join(std::min(a, b), std::max(a, b));
+      }
+    }
+  }
+
+  // Regions that two or more far larger ones, which they touch, explain as well.
+  void drop_made_up(const Contacts& contacts, const DepthCells& cells) {
+    std::vector<std::set<int>> larger(regions_.size());  // that each touches
+    const auto note = [&](int own, int other) {
+      if (pixels(own) < kShellPixels * pixels(other)) {
+        larger[static_cast<std::size_t>(own)].insert(other);
+      }
+    };
+    for (const auto& contact : contacts) {
+      const int a = find(contact.first.first), b = find(contact.first.second);
+      if (a == b) continue;
+      note(a, b);
+      note(b, a);
+    }
+    std::vector<int> made_up;
+    for (std::size_t i = 0; i < regions_.size(); ++i) {
+      if (larger[i].size() >= 2 && explain(larger[i], regions_[i].cells, cells)) {
+        made_up.push_back(static_cast<int>(i));
+      }
+    }
+    for (const int i : made_up) {
+      region(i).plane.reset();
+      for (const int cell : region(i).cells) label_[static_cast<std::size_t>(cell)] = kNoPlane;
+    }
+  }
+
+ private:
+  SurfaceRegion& region(int i) { return regions_[static_cast<std::size_t>(i)]; }
+  double pixels(int i) { return region(i).sums.count; }
+
+  int find(int i) const {
+    while (joined_to_[static_cast<std::size_t>(i)] != i) {
+      i = joined_to_[static_cast<std::size_t>(i)];
+    }
+    return i;
+  }
+
+  bool join(int a, int b) {
+    const InversePlane &plane_a = *region(a).plane, &plane_b = *region(b).plane;
+    const double cosine =
+        plane_a.coefficients().dot(plane_b.coefficients()) / (plane_a.length * plane_b.length);
+    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+    if (angle > kShellAngleRatio * max_angle_) return false;
+    SurfaceRegion both;
+    both.sums = region(a).sums;
+    both.sums += region(b).sums;
+    both.fit();
+    if (angle <= max_angle_ && both.plane && lies_on(a, *both.plane, kRmsShare) &&
+        lies_on(b, *both.plane, kRmsShare)) {
+      region(a).sums = both.sums;
+      region(a).plane = both.plane;
+    } else if (pixels(b) < kShellPixels * pixels(a)) {
+      if (!lies_on(b, plane_a, kShellRmsShare)) return false;
+    } else if (pixels(a) < kShellPixels * pixels(b) && lies_on(a, plane_b, kShellRmsShare)) {
+      region(a).sums = region(b).sums;
+      region(a).plane = region(b).plane;
+    } else {
+      return false;
+    }
+    move_cells(b, a);
+    return true;
+  }
+
+  void move_cells(int from, int to) {
+    std::vector<int>& moved = region(from).cells;
+    for (const int cell : moved) {
+      label_[static_cast<std::size_t>(cell)] = static_cast<std::int16_t>(to);
+    }
+    region(to).cells.insert(region(to).cells.end(), moved.begin(), moved.end());
+    moved.clear();
+    region(from).plane.reset();
+    joined_to_[static_cast<std::size_t>(from)] = to;
+  }
+
+  // Would the region lie within tolerance about this plane?
+  bool lies_on(int i, const InversePlane& plane, double share) {
+    const double z = region(i).depth();
+    const double cosine = 1.0 / (z * plane.length);
+    const double allowed = tolerance_.along_ray(z) * cosine + tolerance_.unevenness;
+    return rms_about(region(i).sums, plane) <= share * allowed;
+  }
+
+  bool explain(const std::set<int>& planes, const std::vector<int>& of_region,
+               const DepthCells& cells) {
+    double sum = 0.0;
+    for (const int cell : of_region) {
+      const CellMean& mean = means_[static_cast<std::size_t>(cell)];
+      const double z = 1.0 / mean.q;
+      const double sigma = tolerance_.noise.sigma(z) / (z * z);
+      const double pixels_of_cell = cells.cell(cell).count;
+      double least = kFarOff;
+      for (const int i : planes) {
+        const double off = region(i).plane->off(mean) / sigma;
+        least = std::min(least, off * off * pixels_of_cell);
+      }
+      sum += least;
+    }
+    return sum < kMadeUp * static_cast<double>(of_region.size());
+  }
+
+  const std::vector<CellMean>& means_;
+  const DepthTolerance& tolerance_;
+  double max_angle_;
+  std::vector<SurfaceRegion>& regions_;
+  std::vector<std::int16_t>& label_;
+  std::vector<int> joined_to_;
+};
+
+}  // namespace
+
+void SurfaceRegion::fit() {
+  const auto found = fit_plane(sums);
+  plane = found ? std::optional(InversePlane::of(found->coefficients)) : std::nullopt;
+}
+
+double rms_about(const InverseDepthSums& s, const InversePlane& p) {
+  const double squares = s.qq - 2.0 * (p.a * s.qx + p.b * s.qy + p.c * s.q) + p.a * p.a * s.xx +
+                         p.b * p.b * s.yy + p.c * p.c * s.count +
+                         2.0 * (p.a * p.b * s.xy + p.a * p.c * s.x + p.b * p.c * s.y);
+  // Along the ray dz = z² dq; along the normal times |n·ray| = 1 / (z |(a, b, c)|).
+  return std::sqrt(std::max(0.0, squares) / s.count) * s.mean_depth() / p.length;
+}
+
+void merge_regions(const DepthCells& cells, const std::vector<CellMean>& means,
+                   const DepthTolerance& tolerance, double max_angle,
+                   std::vector<SurfaceRegion>& regions, std::vector<std::int16_t>& label) {
+  const Contacts contacts = count_contacts(cells, label);
+  Joiner joiner(means, tolerance, max_angle, regions, label);
+  joiner.join_all(contacts);
+  joiner.drop_made_up(contacts, cells);
+}
+
+}  // namespace geomap::perception

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geometry/plane.hpp"
+#include "perception/cell_means.hpp"
+#include "perception/depth_cells.hpp"
+#include "perception/depth_tolerance.hpp"
+
+namespace geomap::perception {
+
+/// @brief A plane as a linear function of the ray: inverse depth q = a x + b y + c [1/m].
+struct InversePlane {
+  double a = 0.0, b = 0.0, c = 0.0;
+  double length = 0.0;  // of (a, b, c): one over the plane's distance from the camera [1/m]
+
+  static InversePlane of(const Eigen::Vector3d& coefficients) {
+    return {coefficients.x(), coefficients.y(), coefficients.z(), coefficients.norm()};
+  }
+  Eigen::Vector3d coefficients() const { return {a, b, c}; }
+  geometry::Plane plane() const { return {-coefficients() / length, 1.0 / length}; }
+  double off(const CellMean& mean) const { return mean.q - (a * mean.x + b * mean.y + c); }
+};
+
+/// @brief Cells of one plane.
+struct SurfaceRegion {
+  InverseDepthSums sums;
+  std::optional<InversePlane> plane;
+  std::vector<int> cells;
+
+  void fit();
+  double depth() const { return sums.mean_depth(); }
+};
+
+/// @brief Root of the mean square distance of a region's readings from a plane, along its normal
+/// [m].
+double rms_about(const InverseDepthSums& sums, const InversePlane& plane);
+
+/// @brief Joins regions that touch and are one surface; drops what noise makes up across an edge.
+/// Regions that go lose their plane; the cells of joined ones move. `label` follows.
+void merge_regions(const DepthCells& cells, const std::vector<CellMean>& means,
+                   const DepthTolerance& tolerance, double max_angle,
+                   std::vector<SurfaceRegion>& regions, std::vector<std::int16_t>& label);
+
+}  // namespace geomap::perception
