@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "messaging/convert_frame.hpp"
-#include "perception/ransac_extractor.hpp"
+#include "perception/extractor_choice.hpp"
 
 namespace geomap::logs {
 
@@ -12,7 +12,7 @@ Pipeline::Pipeline(const PipelineConfig& config, int threads)
     : config_(config),
       threads_(static_cast<std::size_t>(threads)),
       tracker_(config.tracker),
-      extractor_(std::make_unique<perception::RansacExtractor>(config.ransac)),
+      extractor_(perception::make_extractor(config.extraction)),
       map_(config.merge, config.history) {
   if (threads < 1) throw std::invalid_argument("threads must be at least 1");
 }

@@ -11,7 +11,9 @@ PipelineConfig read_pipeline_config(const messaging::Config& config) {
            config.read<perception::RegistrationConfig>("registration"),
            config.read<perception::DepthCorrectionConfig>("depth_correction"),
            config.read<perception::PointMapConfig>("point_map")},
-          config.read<perception::RansacExtractorConfig>("ransac"),
+          {config.read<perception::ExtractorChoice>("extraction"),
+           config.read<perception::OrganizedExtractorConfig>("organized"),
+           config.read<perception::RansacExtractorConfig>("ransac")},
           config.read<mapping::MergeConfig>("merge"),
           config.read<mapping::HistoryConfig>("history")};
 }

@@ -5,7 +5,7 @@
 #include "mapping/merge_config.hpp"
 #include "messaging/camera_config.hpp"
 #include "messaging/config.hpp"
-#include "perception/ransac_extractor.hpp"
+#include "perception/extractor_choice.hpp"
 #include "perception/tracker.hpp"
 
 namespace geomap::logs {
@@ -15,7 +15,7 @@ struct PipelineConfig {
   messaging::CameraConfig driver_depth;  // section driver_camera.depth
   messaging::CameraConfig driver_color;  // section driver_camera.color
   perception::TrackerConfig tracker;  // prior, keyframes, registration, depth_correction, point_map
-  perception::RansacExtractorConfig ransac;
+  perception::PlaneExtractionConfig extraction;  // sections extraction, organized, ransac
   mapping::MergeConfig merge;
   mapping::HistoryConfig history;
 };

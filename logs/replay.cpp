@@ -228,7 +228,7 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   }
   pictures.write(options.output / "pictures");
   report.log = options.log;
-  report.extractor = "ransac";
+  report.extractor = settings.extraction.choice.extractor;
   report.merge_mode = settings.merge.mode;
   report.git_revision = kGitRevision;
   report.config_hash = config.hash();

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   geomap::logs::ReplayOptions options;
   std::string output;
   std::string merge;
-  std::string extractor = "ransac";
+  std::string extractor;
   return messaging::run_program(
       argc, argv,
       {.name = "geomap-replay",
@@ -34,7 +34,8 @@ int main(int argc, char** argv) {
       [&](messaging::OptionParser& parser) {
         parser.positional("LOG", options.log, "LCM log with RGBD_FRAME and POSE (geomap-import)");
         parser.required("-o,--output", output, "folder for the results; made when missing");
-        parser.choice("--extractor", extractor, {"ransac"}, "how planes are found");
+        parser.choice("--extractor", extractor, {"organized", "ransac"},
+                      "how planes are found (extraction.extractor)");
         parser.choice("--merge", merge, {"moments", "paper"}, "how planes are merged (merge.mode)");
         parser.option("--threads", options.threads, "key frames extracted at the same time");
         parser.option("--log-out", options.log_out, "write derived messages into this log");
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
       [&](const messaging::CommonOptions& common) {
         options.output = output;
         std::vector<std::string> overrides;
+        if (!extractor.empty()) overrides.push_back("extraction.extractor=" + extractor);
         if (!merge.empty()) overrides.push_back("merge.mode=" + merge);
         const messaging::Config config = common.config.with(overrides);
         const geomap::logs::ReplayResult result = geomap::logs::replay(options, config);

@@ -107,7 +107,7 @@ GEOMAP_MULTIVERSION void fit_row(const double* __restrict sums, int columns, dou
 }
 
 WindowFits fit_windows(const DepthCells& cells, int radius) {
-  constexpr int kSums = DepthCells::kSums;
+  constexpr int kSums = DepthCells::kInverseSums;
   const int columns = cells.columns(), rows = cells.rows(), padded = columns + 2 * radius;
   const auto size = static_cast<std::size_t>(cells.size());
   WindowFits fits{columns,

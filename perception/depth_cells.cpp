@@ -16,15 +16,15 @@ constexpr int kSide = DepthCells::kSide;
 // Sums over the pixels of one column of a cell, for all columns of a row of cells; j counts rows
 // from the cell's first one.
 struct ColumnSums {
-  explicit ColumnSums(int pixels) : storage(static_cast<std::size_t>(6 * pixels)) {
+  explicit ColumnSums(int pixels) : storage(static_cast<std::size_t>(11 * pixels)) {
     double* at = storage.data();
-    for (double** sum : {&n, &nj, &njj, &q, &qj, &qq}) {
+    for (double** sum : {&n, &nj, &njj, &q, &qj, &qq, &z, &zj, &zz, &zzj, &zzjj}) {
       *sum = at;
       at += pixels;
     }
   }
   std::vector<double> storage;
-  double *n, *nj, *njj, *q, *qj, *qq;
+  double *n, *nj, *njj, *q, *qj, *qq, *z, *zj, *zz, *zzj, *zzjj;
 };
 
 // Readings in range, all four rows of a row of cells. Inverse depth is rounded to a float: a
@@ -62,6 +62,33 @@ GEOMAP_MULTIVERSION void sum_columns(const std::uint16_t* pixels, int stride, in
   }
 }
 
+// The same for depth [m].
+GEOMAP_MULTIVERSION void sum_depth_columns(const std::uint16_t* pixels, int stride, int width,
+                                           std::uint16_t nearest, std::uint16_t farthest,
+                                           double* __restrict z, double* __restrict zj,
+                                           double* __restrict zz, double* __restrict zzj,
+                                           double* __restrict zzjj) {
+  const std::uint16_t* __restrict row0 = pixels;
+  const std::uint16_t* __restrict row1 = row0 + stride;
+  const std::uint16_t* __restrict row2 = row1 + stride;
+  const std::uint16_t* __restrict row3 = row2 + stride;
+  const int low = nearest, high = farthest;
+  const auto depth = [low, high](std::uint16_t mm) {
+    const int reading = mm;
+    return 0.001 *
+           (reading * (static_cast<int>(reading >= low) & static_cast<int>(reading <= high)));
+  };
+  for (int u = 0; u < width; ++u) {
+    const double z0 = depth(row0[u]), z1 = depth(row1[u]), z2 = depth(row2[u]), z3 = depth(row3[u]);
+    const double zz1 = z1 * z1, zz2 = z2 * z2, zz3 = z3 * z3;
+    z[u] = (z0 + z1) + (z2 + z3);
+    zj[u] = z1 + 2.0 * z2 + 3.0 * z3;
+    zz[u] = (z0 * z0 + zz1) + (zz2 + zz3);
+    zzj[u] = zz1 + 2.0 * zz2 + 3.0 * zz3;
+    zzjj[u] = zz1 + 4.0 * zz2 + 9.0 * zz3;
+  }
+}
+
 // Of the sums over the four columns of a cell: plain, times the column's number, and its square.
 inline double fold(const double* column) {
   return (column[0] + column[1]) + (column[2] + column[3]);
@@ -80,8 +107,8 @@ GEOMAP_MULTIVERSION void fold_columns(const double* __restrict n, const double* 
                                       const double* __restrict qj, const double* __restrict qq,
                                       int columns, double x_first, double y0, double sx, double sy,
                                       double* __restrict cells) {
-  double* __restrict sums[DepthCells::kSums];
-  for (int k = 0; k < DepthCells::kSums; ++k)
+  double* __restrict sums[DepthCells::kInverseSums];
+  for (int k = 0; k < DepthCells::kInverseSums; ++k)
     sums[k] = cells + static_cast<std::ptrdiff_t>(k) * columns;
   for (int c = 0; c < columns; ++c) {
     const int u = c * kSide;
@@ -98,6 +125,34 @@ GEOMAP_MULTIVERSION void fold_columns(const double* __restrict n, const double* 
     sums[DepthCells::kQX][c] = x0 * depth + sx * fold_by_i(q + u);
     sums[DepthCells::kQY][c] = y0 * depth + sy * fold(qj + u);
     sums[DepthCells::kQQ][c] = fold(qq + u);
+  }
+}
+
+GEOMAP_MULTIVERSION void fold_depth_columns(const double* __restrict z, const double* __restrict zj,
+                                            const double* __restrict zz,
+                                            const double* __restrict zzj,
+                                            const double* __restrict zzjj, int columns,
+                                            double x_first, double y0, double sx, double sy,
+                                            double* __restrict cells) {
+  double* __restrict sums[DepthCells::kSums];
+  for (int k = DepthCells::kZ; k < DepthCells::kSums; ++k) {
+    sums[k] = cells + static_cast<std::ptrdiff_t>(k) * columns;
+  }
+  for (int c = 0; c < columns; ++c) {
+    const int u = c * kSide;
+    const double x0 = x_first + c * (kSide * sx);
+    const double first = fold(z + u), second = fold(zz + u);
+    const double xi = sx * fold_by_i(zz + u), yj = sy * fold(zzj + u);
+    sums[DepthCells::kZ][c] = first;
+    sums[DepthCells::kZX][c] = x0 * first + sx * fold_by_i(z + u);
+    sums[DepthCells::kZY][c] = y0 * first + sy * fold(zj + u);
+    sums[DepthCells::kZZ][c] = second;
+    sums[DepthCells::kZZX][c] = x0 * second + xi;
+    sums[DepthCells::kZZY][c] = y0 * second + yj;
+    sums[DepthCells::kZZXX][c] = x0 * x0 * second + 2.0 * x0 * xi + sx * sx * fold_by_ii(zz + u);
+    sums[DepthCells::kZZXY][c] =
+        x0 * y0 * second + x0 * yj + y0 * xi + sx * sy * fold_by_i(zzj + u);
+    sums[DepthCells::kZZYY][c] = y0 * y0 * second + 2.0 * y0 * yj + sy * sy * fold(zzjj + u);
   }
 }
 
@@ -161,9 +216,14 @@ DepthCells::DepthCells(const geometry::DepthImage& depth, const geometry::Camera
     }
     sum_columns(pixels, stride, width, nearest, farthest, columns.n, columns.nj, columns.njj,
                 columns.q, columns.qj, columns.qq);
+    sum_depth_columns(pixels, stride, width, nearest, farthest, columns.z, columns.zj, columns.zz,
+                      columns.zzj, columns.zzjj);
+    double* cells = sums_.data() + static_cast<std::ptrdiff_t>(r * kSums) * columns_;
+    const double x_first = -camera.cx / camera.fx, y_first = (r * kSide - camera.cy) / camera.fy;
     fold_columns(columns.n, columns.nj, columns.njj, columns.q, columns.qj, columns.qq, columns_,
-                 -camera.cx / camera.fx, (r * kSide - camera.cy) / camera.fy, 1.0 / camera.fx,
-                 1.0 / camera.fy, sums_.data() + static_cast<std::ptrdiff_t>(r * kSums) * columns_);
+                 x_first, y_first, 1.0 / camera.fx, 1.0 / camera.fy, cells);
+    fold_depth_columns(columns.z, columns.zj, columns.zz, columns.zzj, columns.zzjj, columns_,
+                       x_first, y_first, 1.0 / camera.fx, 1.0 / camera.fy, cells);
   }
 }
 

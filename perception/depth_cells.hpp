@@ -51,8 +51,31 @@ std::optional<InverseDepthFit> fit_plane(const InverseDepthSums& sums);
 class DepthCells {
  public:
   static constexpr int kSide = 4;  // of a cell [pixel]
-  /// The sums of InverseDepthSums, in its order.
-  enum Sum : int { kCount, kX, kY, kXX, kXY, kYY, kQ, kQX, kQY, kQQ, kSums };
+  /// The sums of InverseDepthSums, in its order, and those of depth z and z² [m], [m²] times the
+  /// rays: of the points (z x, z y, z) and their products.
+  enum Sum : int {
+    kCount,
+    kX,
+    kY,
+    kXX,
+    kXY,
+    kYY,
+    kQ,
+    kQX,
+    kQY,
+    kQQ,
+    kInverseSums,
+    kZ = kInverseSums,
+    kZX,
+    kZY,
+    kZZ,
+    kZZX,
+    kZZY,
+    kZZXX,
+    kZZXY,
+    kZZYY,
+    kSums
+  };
 
   /// @brief Reads every pixel once. Readings outside [near, far] [m] count as none. Cells at the
   /// right and lower border may be incomplete.

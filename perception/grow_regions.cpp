@@ -139,21 +139,8 @@ CellRegions grow_regions(const DepthCells& cells, const std::vector<CellNormal>&
   const std::vector<CellMean> means = cell_means(cells, tolerance);
   Grower grower(cells, normals, means, tolerance, max_normal_angle);
   grower.grow_all();
-  merge_regions(cells, means, tolerance, max_merge_angle, grower.regions(), grower.label());
-
-  CellRegions result;
-  std::vector<std::int16_t> index(grower.regions().size(), kNoPlane);
-  for (std::size_t i = 0; i < index.size(); ++i) {
-    const auto& plane = grower.regions()[i].plane;
-    if (!plane) continue;
-    index[i] = static_cast<std::int16_t>(result.planes.size());
-    result.planes.push_back(plane->plane());
-  }
-  result.cell_label = std::move(grower.label());
-  for (std::int16_t& label : result.cell_label) {
-    label = label < 0 ? kNoPlane : index[static_cast<std::size_t>(label)];
-  }
-  return result;
+  return merge_regions(cells, means, tolerance, max_merge_angle, std::move(grower.regions()),
+                       std::move(grower.label()));
 }
 
 }  // namespace geomap::perception

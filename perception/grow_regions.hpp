@@ -4,18 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/plane.hpp"
 #include "perception/cell_normals.hpp"
 #include "perception/depth_cells.hpp"
 #include "perception/depth_tolerance.hpp"
+#include "perception/surface_region.hpp"
 
 namespace geomap::perception {
-
-/// @brief Planes of a depth image, and the cells that are on them.
-struct CellRegions {
-  std::vector<geometry::Plane> planes;   // normals towards the camera (d > 0)
-  std::vector<std::int16_t> cell_label;  // per cell: index into planes, or kNoPlane
-};
 
 /// @brief Planes grown over neighbouring cells from the flattest places outwards: a cell joins
 /// where its mean is on the region's plane, fitted again as it grows, and its own normal agrees.

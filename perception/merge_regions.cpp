@@ -86,7 +86,7 @@ class Joiner {
     };
     for (const auto& contact : contacts) {
       const int a = find(contact.first.first), b = find(contact.first.second);
-      if (a == b) continue;
+      if (a == b || !region(a).plane || !region(b).plane) continue;
       note(a, b);
       note(b, a);
     }
@@ -114,7 +114,8 @@ class Joiner {
   }
 
   bool join(int a, int b) {
-    const InversePlane &plane_a = *region(a).plane, &plane_b = *region(b).plane;
+    if (!region(a).plane || !region(b).plane) return false;
+    const InversePlane plane_a = *region(a).plane, plane_b = *region(b).plane;
     const double cosine =
         plane_a.coefficients().dot(plane_b.coefficients()) / (plane_a.length * plane_b.length);
     const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
@@ -199,13 +200,26 @@ double rms_about(const InverseDepthSums& s, const InversePlane& p) {
   return std::sqrt(std::max(0.0, squares) / s.count) * s.mean_depth() / p.length;
 }
 
-void merge_regions(const DepthCells& cells, const std::vector<CellMean>& means,
-                   const DepthTolerance& tolerance, double max_angle,
-                   std::vector<SurfaceRegion>& regions, std::vector<std::int16_t>& label) {
+CellRegions merge_regions(const DepthCells& cells, const std::vector<CellMean>& means,
+                          const DepthTolerance& tolerance, double max_angle,
+                          std::vector<SurfaceRegion> regions, std::vector<std::int16_t> label) {
   const Contacts contacts = count_contacts(cells, label);
   Joiner joiner(means, tolerance, max_angle, regions, label);
   joiner.join_all(contacts);
   joiner.drop_made_up(contacts, cells);
+
+  CellRegions result;
+  std::vector<std::int16_t> index(regions.size(), kNoPlane);
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    if (!regions[i].plane) continue;
+    index[i] = static_cast<std::int16_t>(result.planes.size());
+    result.planes.push_back(regions[i].plane->plane());
+  }
+  result.cell_label = std::move(label);
+  for (std::int16_t& l : result.cell_label) {
+    l = l < 0 ? kNoPlane : index[static_cast<std::size_t>(l)];
+  }
+  return result;
 }
 
 }  // namespace geomap::perception

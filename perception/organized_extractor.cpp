@@ -79,9 +79,8 @@ ExtractedPlanes OrganizedExtractor::extract(const geometry::RgbdFrame& frame, st
                                            radians(config_.max_merge_angle_deg));
   const PixelLabeler labeler(frame, cells, normals, tolerance, config_.min_depth, config_.max_depth,
                              max_normal_angle);
-  const PlanePixels pixels =
-      sum_pixels(frame, cells, tolerance.noise, labeler.label(regions.planes, regions.cell_label),
-                 regions.planes.size());
+  const PlanePixels pixels = collect_pixels(
+      frame, cells, labeler.label(regions.planes, regions.cell_label), regions.planes.size());
   std::vector<FoundPart> found =
       find_parts(config_, frame, cells, tolerance, regions.planes, pixels, up_camera);
   result.noise = tolerance.noise;

@@ -21,16 +21,16 @@ struct PartAxes {
   Eigen::Vector2d size;  // standard deviation along them [m]
 };
 
-PartAxes axes_of(const PlanePart& part, const geometry::PlaneFit& fit) {
+PartAxes axes_of(const std::vector<CellPoint>& part, const geometry::PlaneFit& fit) {
   const Eigen::Vector3d u = fit.plane.normal.unitOrthogonal();
   const Eigen::Vector3d v = fit.plane.normal.cross(u);
   Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
   double weight = 0.0;
-  for (const PlaneCell* cell : part) {
-    const Eigen::Vector3d from = cell->sums.moments.centroid() - fit.centroid;
+  for (const CellPoint& cell : part) {
+    const Eigen::Vector3d from = cell.mean - fit.centroid;
     const Eigen::Vector2d at(u.dot(from), v.dot(from));
-    second += cell->sums.pixels * at * at.transpose();
-    weight += cell->sums.pixels;
+    second += cell.pixels * at * at.transpose();
+    weight += cell.pixels;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(second / weight);
   const Eigen::Vector2d along = principal.eigenvectors().col(1);
@@ -58,15 +58,16 @@ struct QuadricSums {
 
 }  // namespace
 
-std::optional<PartCurvature> curvature_of(const PlanePart& part, const geometry::PlaneFit& fit) {
+std::optional<PartCurvature> curvature_of(const std::vector<CellPoint>& part,
+                                          const geometry::PlaneFit& fit) {
   if (part.size() < kLeastCells) return std::nullopt;
   const PartAxes axes = axes_of(part, fit);
   if (!(axes.size.minCoeff() > 0.0)) return std::nullopt;
   QuadricSums sums;  // in units of the part's size: they stay comparable
-  for (const PlaneCell* cell : part) {
-    const Eigen::Vector3d from = cell->sums.moments.centroid() - fit.centroid;
+  for (const CellPoint& cell : part) {
+    const Eigen::Vector3d from = cell.mean - fit.centroid;
     sums.add(axes.s.dot(from) / axes.size.x(), axes.t.dot(from) / axes.size.y(),
-             fit.plane.normal.dot(from), cell->sums.pixels);
+             fit.plane.normal.dot(from), cell.pixels);
   }
   const Eigen::FullPivLU<Matrix6d> solver(sums.information / sums.weight);
   if (solver.rcond() < 1e-9) return std::nullopt;

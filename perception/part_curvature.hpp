@@ -2,9 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "geometry/plane_moments.hpp"
-#include "perception/plane_parts.hpp"
+#include "perception/plane_pixels.hpp"
 
 namespace geomap::perception {
 
@@ -15,9 +16,10 @@ struct PartCurvature {
   double sagitta = 0.0;  // height of the bow over the part, in that direction [m]
 };
 
-/// @brief Curvature of the quadric that fits best a part's cells, seen as a height over its plane.
-/// Noise within a tolerance does not tell a cylinder from a plane; this does.
+/// @brief Curvature of the quadric that fits best a part's cell points, seen as a height over its
+/// plane. Noise within a tolerance does not tell a cylinder from a plane; this does.
 /// @return nothing for fewer cells than a quadric needs, or cells on one line.
-std::optional<PartCurvature> curvature_of(const PlanePart& part, const geometry::PlaneFit& fit);
+std::optional<PartCurvature> curvature_of(const std::vector<CellPoint>& part,
+                                          const geometry::PlaneFit& fit);
 
 }  // namespace geomap::perception

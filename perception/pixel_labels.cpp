@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/multiversion.hpp"
+
 namespace geomap::perception {
 namespace {
 
@@ -15,49 +17,109 @@ constexpr int kMostCandidates = 8;  // planes competing for one cell
 // nearly coplanar planes would speckle.
 constexpr float kOwnAdvantage = 0.6F;
 constexpr double kLeastCosine = 0.1;
-// Of the tolerance of a reading, for the mean of a cell's.
-constexpr double kCellShare = 0.5;
 // Readings around a cell that decide between planes: up to so far off, every second one [pixel].
 constexpr int kAround = 6;
 constexpr int kAroundStep = 2;
-constexpr int kMostReadings =
-    ((kSide + 2 * kAround + 1) / kAroundStep) * ((kSide + 2 * kAround + 1) / kAroundStep);
 constexpr float kNoneCost = 0.65F;  // a reading, if no plane is there; within a plane it costs 0.1
 constexpr float kEdgeCost = 0.5F;   // that an edge must explain better than one plane
 constexpr float kOwnEdge = 0.9F;    // what the seed's plane costs, compared with others
 
+constexpr int kLanes = 16;
+constexpr int kMostReadings = 64;  // a multiple of the lanes, and what lies around a cell at most
+static_assert(kMostReadings >=
+              ((kSide + 2 * kAround) / kAroundStep) * ((kSide + 2 * kAround) / kAroundStep));
+
+// What readings are off a plane, squared, over what they may be, at most 1; and the plane's inverse
+// depth. Elements beyond the readings have weight 0 and count nothing.
+GEOMAP_MULTIVERSION void compare(const float* __restrict u, const float* __restrict v,
+                                 const float* __restrict q, const float* __restrict tolerance,
+                                 const float* __restrict weight, int size, float a, float b,
+                                 float c, float uneven, float* __restrict square,
+                                 float* __restrict predicted) {
+  for (int i = 0; i < size; ++i) {
+    predicted[i] = a * u[i] + b * v[i] + c;
+    const float off = (predicted[i] - q[i]) / (tolerance[i] + uneven * q[i] * q[i]);
+    square[i] = weight[i] * std::min(1.0F, off * off);
+  }
+}
+
+// Sum of what readings are off the farther, or the nearer, of two planes; in a fixed order.
+GEOMAP_MULTIVERSION float cost_of(const float* __restrict square_a,
+                                  const float* __restrict square_b, const float* __restrict depth_a,
+                                  const float* __restrict depth_b, int size, bool farther) {
+  std::array<float, kLanes> sums{};
+  for (int block = 0; block < size; block += kLanes) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int i = block + lane;
+      const bool takes_b = (depth_a[i] > depth_b[i]) == farther;
+      sums[static_cast<std::size_t>(lane)] += takes_b ? square_b[i] : square_a[i];
+    }
+  }
+  float sum = 0.0F;
+  for (const float part : sums) sum += part;
+  return sum;
+}
+
+// Labels a row of pixels that one plane has to itself. `first` is the number of the first pixel.
+GEOMAP_MULTIVERSION void label_row(const std::uint16_t* __restrict millimetres, int first,
+                                   int count, float a, float row_c, float uneven,
+                                   const float* __restrict inverse,
+                                   const float* __restrict tolerance, std::int16_t plane,
+                                   std::int16_t* __restrict label) {
+  for (int i = 0; i < count; ++i) {
+    const float q = inverse[millimetres[i]];
+    const float off = std::abs(a * static_cast<float>(first + i) + row_c - q);
+    const bool is_on = off <= tolerance[millimetres[i]] + uneven * q * q;
+    label[i] = is_on ? plane : kNoPlane;
+  }
+}
+
 }  // namespace
 
 // A plane as a linear function of the pixel: inverse depth = a·u + b·v + c.
-struct PixelLabeler::Candidate {
+struct PixelLabeler::ImagePlane {
   float a = 0.0F, b = 0.0F, c = 0.0F;  // [1/m]
-  float uneven = 0.0F;                 // tolerance along the ray beside the rest [m]
-  float handicap = 1.0F;
-  std::int16_t label = kNoPlane;
+  Eigen::Vector3d normal;
+  double distance = 0.0;  // from the camera [m]
+
+  // Tolerance along the ray beside the rest [m], where the plane's inverse depth is q.
+  float uneven(double unevenness, float q) const {
+    const double cosine = distance * static_cast<double>(q);  // |n·ray|
+    return static_cast<float>(unevenness / std::max(kLeastCosine, cosine));
+  }
+  float at(int u, int v) const { return a * static_cast<float>(u) + b * static_cast<float>(v) + c; }
 };
 
-// What the candidates are off the readings around a cell, and where they are.
-struct PixelLabeler::Neighbourhood {
-  int size = 0;                                                      // readings
-  std::array<float, kMostReadings * kMostCandidates> square;         // of the misfit, at most 1
-  std::array<float, kMostReadings * kMostCandidates> inverse_depth;  // [1/m]
+struct PixelLabeler::Candidates {
+  int count = 0;
+  std::array<const ImagePlane*, kMostCandidates> plane;
+  std::array<std::int16_t, kMostCandidates> label;
+  std::array<float, kMostCandidates> uneven;  // [m]
+  int own = -1;                               // which one the cell's seed names
+};
 
+// Readings, and what the candidates are off them.
+struct PixelLabeler::Readings {
+  int size = 0;   // readings
+  int lanes = 0;  // with what fills up the last lanes
+  alignas(64) std::array<float, kMostReadings> u, v, q, tolerance, weight;
+  alignas(64) std::array<std::array<float, kMostReadings>, kMostCandidates> square, predicted;
+
+  void compare_with(const Candidates& candidates) {
+    for (int k = 0; k < candidates.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const ImagePlane& plane = *candidates.plane[at];
+      compare(u.data(), v.data(), q.data(), tolerance.data(), weight.data(), lanes, plane.a,
+              plane.b, plane.c, candidates.uneven[at], square[at].data(), predicted[at].data());
+    }
+  }
   // If of two planes the farther or the nearer one is what is seen.
   float cost(int a, int b, bool farther) const {
-    float sum = 0.0F;
-    for (int i = 0; i < size; ++i) {
-      const auto of_a = static_cast<std::size_t>(i * kMostCandidates + a);
-      const auto of_b = static_cast<std::size_t>(i * kMostCandidates + b);
-      const bool a_is_nearer = inverse_depth[of_a] > inverse_depth[of_b];
-      sum += a_is_nearer == farther ? square[of_b] : square[of_a];
-    }
-    return sum;
+    const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+    return cost_of(square[i].data(), square[j].data(), predicted[i].data(), predicted[j].data(),
+                   lanes, farther);
   }
 };
-
-float PixelLabeler::inverse_depth(const Candidate& plane, int u, int v) {
-  return plane.a * static_cast<float>(u) + plane.b * static_cast<float>(v) + plane.c;
-}
 
 PixelLabeler::PixelLabeler(const geometry::RgbdFrame& frame, const DepthCells& cells,
                            const std::vector<CellNormal>& normals, const DepthTolerance& tolerance,
@@ -69,151 +131,196 @@ PixelLabeler::PixelLabeler(const geometry::RgbdFrame& frame, const DepthCells& c
       cosine_(std::cos(max_normal_angle)) {
   constexpr std::size_t kDepthValues = 65536;
   inverse_.assign(kDepthValues, 0.0F);
-  tolerance_.assign(kDepthValues, 0.0F);
+  tolerance_.assign(kDepthValues, -1.0F);  // nothing is on a plane there
   const auto first = static_cast<std::size_t>(std::clamp(std::ceil(near * 1000.0), 1.0, 65534.0));
   const auto last = static_cast<std::size_t>(std::clamp(std::floor(far * 1000.0), 0.0, 65534.0));
   for (std::size_t mm = first; mm <= last; ++mm) {
     const double z = 0.001 * static_cast<double>(mm);
     inverse_[mm] = static_cast<float>(1.0 / z);
-    tolerance_[mm] = static_cast<float>(tolerance.along_ray(z));
+    tolerance_[mm] = static_cast<float>(tolerance.along_ray(z) / (z * z));  // dq = q² dz
   }
 }
 
+PixelLabeler::ImagePlane PixelLabeler::in_image(const geometry::Plane& plane) const {
+  const geometry::CameraModel& camera = frame_.depth_camera;
+  // On the plane n·p + d = 0 with p = ray/q: q = -n·ray/d.
+  const Eigen::Vector3d m = -plane.normal / plane.d;
+  ImagePlane result;
+  result.a = static_cast<float>(m.x() / camera.fx);
+  result.b = static_cast<float>(m.y() / camera.fy);
+  result.c =
+      static_cast<float>(m.z() - m.x() * camera.cx / camera.fx - m.y() * camera.cy / camera.fy);
+  result.normal = plane.normal;
+  result.distance = plane.d;
+  return result;
+}
+
 std::vector<std::int16_t> PixelLabeler::label(const std::vector<geometry::Plane>& planes,
-                                              const std::vector<std::int16_t>& cell_label,
-                                              int row_step) const {
+                                              const std::vector<std::int16_t>& cell_label) const {
+  std::vector<ImagePlane> in_images;
+  in_images.reserve(planes.size());
+  for (const geometry::Plane& plane : planes) in_images.push_back(in_image(plane));
   std::vector<std::int16_t> labels(frame_.depth.millimetres.size(), kNoPlane);
-  std::array<Candidate, kMostCandidates> candidates;
   for (int row = 0; row < cells_.rows(); ++row) {
     for (int column = 0; column < cells_.columns(); ++column) {
-      if (cells_.cell(cells_.index(column, row)).count == 0.0) continue;
-      const int count =
-          candidates_at(column, row, planes, cell_label, row_step > 1, candidates.data());
-      if (count > 0) label_cell(column, row, candidates.data(), count, row_step, labels);
+      const std::int16_t own = cell_label[static_cast<std::size_t>(cells_.index(column, row))];
+      const int first = column;
+      while (column < cells_.columns() && is_inner(column, row, cell_label) &&
+             cell_label[static_cast<std::size_t>(cells_.index(column, row))] == own) {
+        ++column;
+      }
+      if (column > first) {
+        label_inner(first, column, row, in_images[static_cast<std::size_t>(own)], own, labels);
+        --column;
+        continue;
+      }
+      if (cells_.row(row, DepthCells::kCount)[column] == 0.0) continue;
+      const Candidates candidates = candidates_at(column, row, in_images, cell_label);
+      if (candidates.count > 0) label_cell(column, row, candidates, labels);
     }
   }
   return labels;
 }
 
-int PixelLabeler::candidates_at(int column, int row, const std::vector<geometry::Plane>& planes,
-                                const std::vector<std::int16_t>& cell_label, bool is_quick,
-                                Candidate* candidates) const {
-  const auto own_cell = static_cast<std::size_t>(cells_.index(column, row));
-  const std::int16_t own = cell_label[own_cell];
-  int count = 0;
-  const auto add = [&](std::int16_t label) {
-    const bool is_known = std::any_of(candidates, candidates + count,
-                                      [label](const Candidate& k) { return k.label == label; });
-    if (is_known || count == kMostCandidates) return;
-    candidates[count++] =
-        candidate_of(planes[static_cast<std::size_t>(label)], label, label == own, column, row);
-  };
-  const auto add_neighbours = [&](bool agreeing) {
-    std::int16_t previous = kNoPlane;
-    for (int r = std::max(0, row - kReach); r <= std::min(cells_.rows() - 1, row + kReach); ++r) {
-      const int c_end = std::min(cells_.columns() - 1, column + kReach);
-      for (int c = std::max(0, column - kReach); c <= c_end; ++c) {
-        const std::int16_t label = cell_label[static_cast<std::size_t>(cells_.index(c, r))];
-        if (label == previous || label == kNoPlane) continue;
-        previous = label;
-        if (agrees(planes[static_cast<std::size_t>(label)], own_cell) == agreeing) add(label);
-      }
+// One plane has all around.
+bool PixelLabeler::is_inner(int column, int row,
+                            const std::vector<std::int16_t>& cell_label) const {
+  const std::int16_t own = cell_label[static_cast<std::size_t>(cells_.index(column, row))];
+  if (own == kNoPlane) return false;
+  const int c0 = std::max(0, column - kReach), c1 = std::min(cells_.columns(), column + kReach + 1);
+  for (int r = std::max(0, row - kReach); r <= std::min(cells_.rows() - 1, row + kReach); ++r) {
+    const std::int16_t* line = cell_label.data() + cells_.index(0, r);
+    for (int c = c0; c < c1; ++c) {
+      if (line[c] != own) return false;
     }
-  };
-  add_neighbours(true);
-  if (is_quick) return count;
-  for (std::size_t i = 0; own == kNoPlane && i < planes.size(); ++i) {
-    if (is_on(planes[i], own_cell)) add(static_cast<std::int16_t>(i));
   }
-  // Beside an edge the normal is that of one side, and blurred: the other side may compete.
-  if (count > 0) add_neighbours(false);
-  return count;
+  return true;
 }
 
-// Parts of a plane may be too narrow to be found by themselves: the readings of the cell lie on it,
-// and its normal agrees.
-bool PixelLabeler::is_on(const geometry::Plane& plane, std::size_t cell) const {
-  const Eigen::Vector3d point = cells_.cell(static_cast<int>(cell)).mean_point();
-  const double cosine = std::abs(plane.normal.dot(point)) / point.z();
-  const auto millimetres = static_cast<std::size_t>(std::lround(1000.0 * point.z()));
-  const double allowed = kCellShare * (tolerance_[millimetres] * cosine + unevenness_);
-  if (std::abs(plane.signed_distance(point)) > allowed) return false;
-  return normals_[cell].kind == CellNormal::Kind::kPlanar && agrees(plane, cell);
+void PixelLabeler::label_inner(int first, int last, int row, const ImagePlane& plane,
+                               std::int16_t label, std::vector<std::int16_t>& labels) const {
+  const geometry::DepthImage& depth = frame_.depth;
+  const int u_end = std::min(last * kSide, depth.width);
+  const int v_end = std::min((row + 1) * kSide, depth.height);
+  // Stretches short enough for one slope.
+  constexpr int kStretch = 32;
+  for (int v = row * kSide; v < v_end; ++v) {
+    const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(v) * depth.width;
+    for (int u = first * kSide; u < u_end; u += kStretch) {
+      const int count = std::min(kStretch, u_end - u);
+      label_row(depth.millimetres.data() + line + u, u, count, plane.a,
+                plane.b * static_cast<float>(v) + plane.c,
+                plane.uneven(unevenness_, plane.at(u + count / 2, v)), inverse_.data(),
+                tolerance_.data(), label, labels.data() + line + u);
+    }
+  }
+}
+
+PixelLabeler::Candidates PixelLabeler::candidates_at(
+    int column, int row, const std::vector<ImagePlane>& planes,
+    const std::vector<std::int16_t>& cell_label) const {
+  const auto own_cell = static_cast<std::size_t>(cells_.index(column, row));
+  std::array<std::int16_t, (2 * kReach + 1) * (2 * kReach + 1)> near{};
+  std::size_t distinct = 0;
+  const int c0 = std::max(0, column - kReach), c1 = std::min(cells_.columns(), column + kReach + 1);
+  for (int r = std::max(0, row - kReach); r <= std::min(cells_.rows() - 1, row + kReach); ++r) {
+    std::int16_t previous = kNoPlane;
+    for (int c = c0; c < c1; ++c) {
+      const std::int16_t label = cell_label[static_cast<std::size_t>(cells_.index(c, r))];
+      if (label == previous || label == kNoPlane) continue;
+      previous = label;
+      const auto end = near.begin() + static_cast<std::ptrdiff_t>(distinct);
+      if (std::find(near.begin(), end, label) == end) near[distinct++] = label;
+    }
+  }
+  Candidates found;
+  const int u = column * kSide + kSide / 2, v = row * kSide + kSide / 2;
+  // Beside an edge the normal is that of one side, and blurred: the other side may compete.
+  for (const bool agreeing : {true, false}) {
+    for (std::size_t i = 0; i < distinct && found.count < kMostCandidates; ++i) {
+      const ImagePlane& plane = planes[static_cast<std::size_t>(near[i])];
+      if (agrees(plane, own_cell) != agreeing) continue;
+      const auto at = static_cast<std::size_t>(found.count++);
+      found.plane[at] = &plane;
+      found.label[at] = near[i];
+      found.uneven[at] = plane.uneven(unevenness_, plane.at(u, v));
+      if (near[i] == cell_label[own_cell]) found.own = static_cast<int>(at);
+    }
+    if (found.count == 0) break;
+  }
+  return found;
 }
 
 // False where the cell's own normal says otherwise.
-bool PixelLabeler::agrees(const geometry::Plane& plane, std::size_t cell) const {
+bool PixelLabeler::agrees(const ImagePlane& plane, std::size_t cell) const {
   const CellNormal& normal = normals_[cell];
   return normal.kind != CellNormal::Kind::kPlanar || normal.normal.dot(plane.normal) >= cosine_;
 }
 
-PixelLabeler::Candidate PixelLabeler::candidate_of(const geometry::Plane& plane, std::int16_t label,
-                                                   bool is_own, int column, int row) const {
-  const geometry::CameraModel& camera = frame_.depth_camera;
-  // On the plane n·p + d = 0 with p = ray/q: q = -n·ray/d.
-  const Eigen::Vector3d m = -plane.normal / plane.d;
-  const double cosine =
-      std::abs(plane.normal.dot(camera.ray(column * kSide + 1.5, row * kSide + 1.5)));
-  Candidate k;
-  k.a = static_cast<float>(m.x() / camera.fx);
-  k.b = static_cast<float>(m.y() / camera.fy);
-  k.c = static_cast<float>(m.z() - m.x() * camera.cx / camera.fx - m.y() * camera.cy / camera.fy);
-  k.uneven = static_cast<float>(unevenness_ / std::max(kLeastCosine, cosine));
-  k.handicap = is_own ? kOwnAdvantage : 1.0F;
-  k.label = label;
-  return k;
-}
-
-void PixelLabeler::label_cell(int column, int row, const Candidate* candidates, int count,
-                              int row_step, std::vector<std::int16_t>& labels) const {
+PixelLabeler::Readings PixelLabeler::read(int u_first, int v_first, int u_last, int v_last,
+                                          int step) const {
   const geometry::DepthImage& depth = frame_.depth;
-  const int u_end = std::min((column + 1) * kSide, depth.width);
-  const int v_end = std::min((row + 1) * kSide, depth.height);
-  bool is_clear = true;  // one plane has all
-  for (int v = row * kSide; v < v_end; v += row_step) {
-    const std::size_t line = static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width);
-    for (int u = column * kSide; u < u_end; ++u) {
-      const std::size_t pixel = line + static_cast<std::size_t>(u);
-      if (inverse_[depth.millimetres[pixel]] == 0.0F) continue;
-      float best = 1e9F;
-      std::int16_t label = kNoPlane;
-      for (int k = 0; k < count; ++k) {
-        const float off = misfit(candidates[k], u, v);
-        if (off > 1.0F) continue;
-        is_clear &= label == kNoPlane;
-        const float scored = off * candidates[k].handicap;
-        const bool is_better = scored < best;
-        best = is_better ? scored : best;
-        label = is_better ? candidates[k].label : label;
-      }
-      labels[pixel] = label;
-      is_clear &= label != kNoPlane;
+  Readings readings;
+  for (int v = std::max(0, v_first); v < std::min(v_last, depth.height); v += step) {
+    for (int u = std::max(0, u_first); u < std::min(u_last, depth.width); u += step) {
+      const std::size_t reading = depth.at(u, v);
+      if (inverse_[reading] == 0.0F) continue;
+      const auto at = static_cast<std::size_t>(readings.size++);
+      readings.u[at] = static_cast<float>(u);
+      readings.v[at] = static_cast<float>(v);
+      readings.q[at] = inverse_[reading];
+      readings.tolerance[at] = tolerance_[reading];
+      readings.weight[at] = 1.0F;
     }
   }
-  if (!is_clear && row_step == 1) settle_cell(column, row, candidates, count, labels);
+  readings.lanes = readings.size;
+  for (; readings.lanes % kLanes != 0; ++readings.lanes) {
+    const auto at = static_cast<std::size_t>(readings.lanes);
+    readings.u[at] = readings.v[at] = readings.q[at] = readings.weight[at] = 0.0F;
+    readings.tolerance[at] = 1.0F;
+  }
+  return readings;
 }
 
-// What a reading is off a plane, over what it may be.
-float PixelLabeler::misfit(const Candidate& plane, int u, int v) const {
-  const std::size_t reading = frame_.depth.at(u, v);
-  const float q = inverse_[reading];
-  return std::abs(inverse_depth(plane, u, v) - q) /
-         ((tolerance_[reading] + plane.uneven) * q * q);  // dq = q² dz
+void PixelLabeler::label_cell(int column, int row, const Candidates& candidates,
+                              std::vector<std::int16_t>& labels) const {
+  Readings own = read(column * kSide, row * kSide, (column + 1) * kSide, (row + 1) * kSide, 1);
+  own.compare_with(candidates);
+  bool is_clear = true;  // one plane has all
+  for (int i = 0; i < own.size; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    float best = 1e9F;
+    std::int16_t label = kNoPlane;
+    for (int k = 0; k < candidates.count; ++k) {
+      const float off = own.square[static_cast<std::size_t>(k)][at];
+      if (off >= 1.0F) continue;
+      is_clear &= label == kNoPlane;
+      const float scored = off * (k == candidates.own ? kOwnAdvantage * kOwnAdvantage : 1.0F);
+      if (scored >= best) continue;
+      best = scored;
+      label = candidates.label[static_cast<std::size_t>(k)];
+    }
+    labels[static_cast<std::size_t>(own.v[at]) * static_cast<std::size_t>(frame_.depth.width) +
+           static_cast<std::size_t>(own.u[at])] = label;
+    is_clear &= label != kNoPlane;
+  }
+  if (!is_clear) settle_cell(column, row, candidates, own, labels);
 }
 
 // Where several planes are possible, as beside the line in which two of them meet, a single reading
 // with its noise says little. What the readings around fit best decides: one plane everywhere, two
 // that meet in an edge, of which the farther one is seen where it bulges (a box from outside), the
 // nearer one where it recedes (a room's corner), or none, as where a plane cuts through clutter.
-void PixelLabeler::settle_cell(int column, int row, const Candidate* candidates, int count,
+void PixelLabeler::settle_cell(int column, int row, const Candidates& candidates, Readings& own,
                                std::vector<std::int16_t>& labels) const {
-  const Neighbourhood around = neighbourhood(column, row, candidates, count);
+  Readings around = read(column * kSide - kAround, row * kSide - kAround,
+                         (column + 1) * kSide + kAround, (row + 1) * kSide + kAround, kAroundStep);
+  around.compare_with(candidates);
   int first = -1, second = -1;  // none
   bool farther = false;
   float least = kNoneCost * static_cast<float>(around.size);
-  for (int i = 0; i < count; ++i) {
-    const float alone =
-        around.cost(i, i, false) * (candidates[i].handicap < 1.0F ? kOwnEdge : 1.0F);
+  for (int i = 0; i < candidates.count; ++i) {
+    const float alone = around.cost(i, i, false) * (i == candidates.own ? kOwnEdge : 1.0F);
     if (alone < least) {
       least = alone;
       first = second = i;
@@ -229,43 +336,18 @@ void PixelLabeler::settle_cell(int column, int row, const Candidate* candidates,
       }
     }
   }
-  const geometry::DepthImage& depth = frame_.depth;
-  for (int v = row * kSide; v < std::min((row + 1) * kSide, depth.height); ++v) {
-    for (int u = column * kSide; u < std::min((column + 1) * kSide, depth.width); ++u) {
-      if (inverse_[depth.at(u, v)] == 0.0F) continue;
-      std::int16_t& label =
-          labels[static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width) +
-                 static_cast<std::size_t>(u)];
-      label = kNoPlane;
-      if (first < 0) continue;
-      const bool first_is_nearer =
-          inverse_depth(candidates[first], u, v) > inverse_depth(candidates[second], u, v);
-      const Candidate& seen = candidates[first_is_nearer == farther ? second : first];
-      if (misfit(seen, u, v) <= 1.0F) label = seen.label;
-    }
+  for (int i = 0; i < own.size; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    std::int16_t& label =
+        labels[static_cast<std::size_t>(own.v[at]) * static_cast<std::size_t>(frame_.depth.width) +
+               static_cast<std::size_t>(own.u[at])];
+    label = kNoPlane;
+    if (first < 0) continue;
+    const bool first_is_nearer = own.predicted[static_cast<std::size_t>(first)][at] >
+                                 own.predicted[static_cast<std::size_t>(second)][at];
+    const auto seen = static_cast<std::size_t>(first_is_nearer == farther ? second : first);
+    if (own.square[seen][at] < 1.0F) label = candidates.label[seen];
   }
-}
-
-PixelLabeler::Neighbourhood PixelLabeler::neighbourhood(int column, int row,
-                                                        const Candidate* candidates,
-                                                        int count) const {
-  const geometry::DepthImage& depth = frame_.depth;
-  Neighbourhood around;
-  const int u_end = std::min((column + 1) * kSide + kAround, depth.width);
-  const int v_end = std::min((row + 1) * kSide + kAround, depth.height);
-  for (int v = std::max(0, row * kSide - kAround); v < v_end; v += kAroundStep) {
-    for (int u = std::max(0, column * kSide - kAround); u < u_end; u += kAroundStep) {
-      if (inverse_[depth.at(u, v)] == 0.0F) continue;
-      for (int k = 0; k < count; ++k) {
-        const float off = misfit(candidates[k], u, v);
-        const auto at = static_cast<std::size_t>(around.size * kMostCandidates + k);
-        around.square[at] = std::min(1.0F, off * off);
-        around.inverse_depth[at] = inverse_depth(candidates[k], u, v);
-      }
-      ++around.size;
-    }
-  }
-  return around;
 }
 
 }  // namespace geomap::perception

@@ -26,28 +26,25 @@ class PixelLabeler {
   /// @brief Per pixel the index of its plane, or kNoPlane.
   /// @param planes with normals towards the camera (d > 0)
   /// @param cell_label where each plane is known to be: the seeds, one per cell.
-  /// @param row_step only every so many rows of each cell are labelled, for a quick first fit.
   std::vector<std::int16_t> label(const std::vector<geometry::Plane>& planes,
-                                  const std::vector<std::int16_t>& cell_label,
-                                  int row_step = 1) const;
+                                  const std::vector<std::int16_t>& cell_label) const;
 
  private:
-  struct Candidate;
-  struct Neighbourhood;
-  int candidates_at(int column, int row, const std::vector<geometry::Plane>& planes,
-                    const std::vector<std::int16_t>& cell_label, bool is_quick,
-                    Candidate* candidates) const;
-  bool agrees(const geometry::Plane& plane, std::size_t cell) const;
-  bool is_on(const geometry::Plane& plane, std::size_t cell) const;
-  Candidate candidate_of(const geometry::Plane& plane, std::int16_t label, bool is_own, int column,
-                         int row) const;
-  void label_cell(int column, int row, const Candidate* candidates, int count, int row_step,
-                  std::vector<std::int16_t>& labels) const;
-  void settle_cell(int column, int row, const Candidate* candidates, int count,
+  struct ImagePlane;
+  struct Candidates;
+  struct Readings;
+  ImagePlane in_image(const geometry::Plane& plane) const;
+  bool is_inner(int column, int row, const std::vector<std::int16_t>& cell_label) const;
+  void label_inner(int first, int last, int row, const ImagePlane& plane, std::int16_t label,
                    std::vector<std::int16_t>& labels) const;
-  Neighbourhood neighbourhood(int column, int row, const Candidate* candidates, int count) const;
-  float misfit(const Candidate& plane, int u, int v) const;
-  static float inverse_depth(const Candidate& plane, int u, int v);  // [1/m]
+  Candidates candidates_at(int column, int row, const std::vector<ImagePlane>& planes,
+                           const std::vector<std::int16_t>& cell_label) const;
+  bool agrees(const ImagePlane& plane, std::size_t cell) const;
+  Readings read(int u_first, int v_first, int u_last, int v_last, int step) const;
+  void label_cell(int column, int row, const Candidates& candidates,
+                  std::vector<std::int16_t>& labels) const;
+  void settle_cell(int column, int row, const Candidates& candidates, Readings& own,
+                   std::vector<std::int16_t>& labels) const;
 
   const geometry::RgbdFrame& frame_;
   const DepthCells& cells_;
@@ -56,7 +53,7 @@ class PixelLabeler {
   double cosine_;      // of the largest angle between normals
   // Per depth reading [mm]; 0 where it is out of range.
   std::vector<float> inverse_;    // inverse depth [1/m]
-  std::vector<float> tolerance_;  // along the ray [m]
+  std::vector<float> tolerance_;  // of inverse depth [1/m]
 };
 
 }  // namespace geomap::perception

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "perception/part_curvature.hpp"
+#include "perception/plane_extractor.hpp"
 #include "perception/plane_rays.hpp"
 
 namespace geomap::perception {
@@ -19,18 +20,6 @@ constexpr double kLargestNormalError = 0.1;  // standard deviation of the normal
 
 constexpr double kWhiteRmsRatio = 1.2;  // largest rms over what white noise makes it
 constexpr double kLeastBow = 0.25;      // of what is bent, over the unevenness of what is flat
-
-geometry::PlaneObservation without_surface(const PlanePart& part) {
-  PlaneSums sums;
-  for (const PlaneCell* cell : part) sums += cell->sums;
-  geometry::PlaneObservation observation;
-  observation.moments = sums.moments;
-  observation.inliers = sums.pixels;
-  for (std::size_t k = 0; k < sums.color.size(); ++k) {
-    observation.color[k] = sums.color[k] / std::max(1, sums.pixels);
-  }
-  return observation;
-}
 
 bool is_known_well(const geometry::PlaneFit& fit, std::int64_t inliers) {
   const double independent = std::max(1.0, static_cast<double>(inliers) / kCorrelatedPixels);
@@ -51,7 +40,7 @@ bool is_flat(const geometry::PlaneFit& fit, const geometry::PlaneMoments& moment
 // A cylinder or a sphere, and no plane: its curvature is beyond doubt, and the bow more than the
 // camera's systematic error could make. Narrow strips of a pillar bow by less than flat surfaces
 // are granted to be uneven, but all of them evenly.
-bool is_curved(const PlanePart& part, const geometry::PlaneFit& fit,
+bool is_curved(const std::vector<CellPoint>& part, const geometry::PlaneFit& fit,
                const DepthTolerance& tolerance, double cosine, const ExtractionConfig& config) {
   const auto curvature = curvature_of(part, fit);
   return curvature && curvature->value - 3.0 * curvature->sigma > config.max_curvature &&
@@ -64,26 +53,31 @@ double covered_area(const geometry::CameraModel& camera, const geometry::Plane& 
   double sum = 0.0;
   for (const PlaneCell* cell : part) {
     const Eigen::Vector2d center = cell->box.cast<double>().center();
-    if (meets(camera, plane, center)) sum += cell->sums.pixels * pixel_area(camera, plane, center);
+    if (meets(camera, plane, center)) sum += cell->pixels * pixel_area(camera, plane, center);
   }
   return sum;
 }
 
 // The part as a plane in its frame; nothing where it turns out to be none, or one that cannot be
 // known.
-std::optional<geometry::PlaneObservation> observe(const PlanePart& part,
+std::optional<geometry::PlaneObservation> observe(const PartSums& sums,
                                                   const DepthTolerance& tolerance,
                                                   const ExtractionConfig& config) {
-  geometry::PlaneObservation observation = without_surface(part);
-  if (observation.inliers < config.min_pixels) return std::nullopt;
-  const auto fit = observation.moments.fit(-observation.moments.centroid());
-  if (!fit || !is_known_well(*fit, observation.inliers)) return std::nullopt;
+  if (sums.pixels < config.min_pixels) return std::nullopt;
+  const auto fit = sums.moments.fit(-sums.moments.centroid());
+  if (!fit || !is_known_well(*fit, sums.pixels)) return std::nullopt;
   const geometry::Plane& plane = fit->plane;
   const Eigen::Vector3d& centroid = fit->centroid;
   if (-plane.normal.dot(centroid.normalized()) < kLeastViewCosine) return std::nullopt;
   const double ray_cosine = -plane.normal.dot(centroid) / centroid.z();
-  if (!is_flat(*fit, observation.moments, tolerance, ray_cosine, config)) return std::nullopt;
-  if (is_curved(part, *fit, tolerance, ray_cosine, config)) return std::nullopt;
+  if (!is_flat(*fit, sums.moments, tolerance, ray_cosine, config)) return std::nullopt;
+  if (is_curved(sums.points, *fit, tolerance, ray_cosine, config)) return std::nullopt;
+  geometry::PlaneObservation observation;
+  observation.moments = sums.moments;
+  observation.inliers = sums.pixels;
+  for (std::size_t k = 0; k < sums.color.size(); ++k) {
+    observation.color[k] = sums.color[k] / static_cast<double>(sums.pixels);
+  }
   observation.rms = fit->rms;
   observation.surface.plane = plane;
   observation.surface.frame =
@@ -102,9 +96,11 @@ std::vector<FoundPart> find_parts(const ExtractionConfig& config, const geometry
   for (std::size_t i = 0; i < planes.size(); ++i) {
     for (PlanePart& part : split_into_parts(frame.depth_camera, cells.columns(), planes[i],
                                             pixels.cells[i], config.part_gap, config.min_pixels)) {
-      auto observation = observe(part, tolerance, config);
+      const auto surface = static_cast<std::int16_t>(i);
+      auto observation = observe(
+          sum_part(frame, cells, tolerance.noise, pixels.label, surface, part), tolerance, config);
       if (!observation || !config.wants(observation->surface.plane, up_camera)) continue;
-      found.push_back({std::move(*observation), static_cast<std::int16_t>(i), std::move(part)});
+      found.push_back({std::move(*observation), surface, std::move(part)});
     }
   }
   std::stable_sort(found.begin(), found.end(), [](const FoundPart& a, const FoundPart& b) {

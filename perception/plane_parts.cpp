@@ -82,7 +82,7 @@ std::vector<PlanePart> split_into_parts(const geometry::CameraModel& camera, int
   }
   std::erase_if(parts, [least_pixels](const PlanePart& part) {
     int pixels = 0;
-    for (const PlaneCell* cell : part) pixels += cell->sums.pixels;
+    for (const PlaneCell* cell : part) pixels += cell->pixels;
     return pixels < least_pixels;
   });
   return parts;

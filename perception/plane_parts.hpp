@@ -10,9 +10,6 @@
 
 namespace geomap::perception {
 
-/// @brief Cells of one plane that belong together, ascending; they belong to a PlanePixels.
-using PlanePart = std::vector<const PlaneCell*>;
-
 /// @brief Splits a plane's pixels into connected parts (paper: clustering of the inliers): pixels
 /// of one part reach each other over gaps, along the image's axes, of at most `gap` on the plane
 /// [m], and never less than a few pixels. Parts of fewer pixels than `least_pixels` are left out.

@@ -4,174 +4,198 @@
 #include <algorithm>
 #include <array>
 
+#include "perception/plane_extractor.hpp"
+
 namespace geomap::perception {
 namespace {
 
 constexpr int kSide = DepthCells::kSide;
 
-// Sums over the pixels of one cell.
-class CellSummer {
+// Sums of one cell, of all readings or of those with one label: 1, z and z² times monomials of the
+// ray.
+struct CellSums {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  double z = 0, zx = 0, zy = 0, zz = 0, zzx = 0, zzy = 0, zzxx = 0, zzxy = 0, zzyy = 0;
+
+  void add(double ray_x, double ray_y, double depth) {
+    const double square = depth * depth;
+    n += 1.0;
+    x += ray_x;
+    y += ray_y;
+    xx += ray_x * ray_x;
+    xy += ray_x * ray_y;
+    yy += ray_y * ray_y;
+    z += depth;
+    zx += depth * ray_x;
+    zy += depth * ray_y;
+    zz += square;
+    zzx += square * ray_x;
+    zzy += square * ray_y;
+    zzxx += square * ray_x * ray_x;
+    zzxy += square * ray_x * ray_y;
+    zzyy += square * ray_y * ray_y;
+  }
+};
+
+CellSums sums_of_cell(const DepthCells& cells, int column, int row) {
+  const auto at = [&cells, column, row](DepthCells::Sum sum) {
+    return cells.row(row, sum)[column];
+  };
+  return {at(DepthCells::kCount), at(DepthCells::kX),    at(DepthCells::kY),   at(DepthCells::kXX),
+          at(DepthCells::kXY),    at(DepthCells::kYY),   at(DepthCells::kZ),   at(DepthCells::kZX),
+          at(DepthCells::kZY),    at(DepthCells::kZZ),   at(DepthCells::kZZX), at(DepthCells::kZZY),
+          at(DepthCells::kZZXX),  at(DepthCells::kZZXY), at(DepthCells::kZZYY)};
+}
+
+class PartSummer {
  public:
-  CellSummer(const geometry::RgbdFrame& frame, const DepthCells& cells,
+  PartSummer(const geometry::RgbdFrame& frame, const DepthCells& cells,
              const geometry::DepthNoise& noise, const std::vector<std::int16_t>& label,
-             int row_step)
-      : depth_(frame.depth),
-        camera_(frame.depth_camera),
-        color_(frame.color),
-        has_color_(color_.width == depth_.width && color_.height == depth_.height),
-        columns_(cells.columns()),
+             std::int16_t plane)
+      : frame_(frame),
+        cells_(cells),
+        noise_(noise),
         label_(label),
-        row_step_(row_step) {
-    std::uint16_t largest = 0;
-    for (std::size_t i = 0; i < label.size(); ++i) {
-      if (label[i] != kNoPlane) largest = std::max(largest, depth_.millimetres[i]);
-    }
-    weight_.assign(static_cast<std::size_t>(largest) + 1, 0.0);
-    for (std::size_t mm = 1; mm < weight_.size(); ++mm) {
-      const double sigma = noise.sigma(0.001 * static_cast<double>(mm));
-      weight_[mm] = 1.0 / (sigma * sigma);
-    }
+        plane_(plane),
+        has_color_(frame.color.width == frame.depth.width &&
+                   frame.color.height == frame.depth.height) {}
+
+  void add(const PlaneCell& cell, PartSums& sums) {
+    const CellSums s = cell.is_whole ? sums_of_cell(cells_, cell.cell % cells_.columns(),
+                                                    cell.cell / cells_.columns())
+                                     : sums_of_label(cell);
+    const double sigma = noise_.sigma(s.z / s.n), weight = 1.0 / (sigma * sigma);
+    geometry::PlaneMoments& m = sums.moments;
+    m.weight += weight * s.n;
+    m.first += weight * Eigen::Vector3d(s.zx, s.zy, s.z);
+    second_ += weight * Vector6(s.zzxx, s.zzxy, s.zzyy, s.zzx, s.zzy, s.zz);
+    noise_sums_ += Vector6(s.xx, s.xy, s.yy, s.x, s.y, s.n);
+    sums.pixels += cell.pixels;
+    sums.points.push_back({Eigen::Vector3d(s.zx, s.zy, s.z) / s.n, s.n});
+    if (has_color_) add_color(cell, sums);
   }
 
-  // The planes in a cell, in the order of their first pixels.
-  int distinct_labels(int column, int row, std::array<std::int16_t, kSide * kSide>& labels) const {
-    const int u_end = std::min((column + 1) * kSide, depth_.width);
-    const int v_end = std::min((row + 1) * kSide, depth_.height);
-    int distinct = 0;
-    std::int16_t previous = kNoPlane;
-    for (int v = row * kSide; v < v_end; v += row_step_) {
-      const std::int16_t* line = label_.data() + static_cast<std::ptrdiff_t>(v) * depth_.width;
-      for (int u = column * kSide; u < u_end; ++u) {
-        if (line[u] == previous || line[u] == kNoPlane) continue;
-        previous = line[u];
-        const auto end = labels.begin() + distinct;
-        if (std::find(labels.begin(), end, previous) == end) {
-          labels[static_cast<std::size_t>(distinct++)] = previous;
-        }
-      }
-    }
-    return distinct;
-  }
-
-  PlaneCell sum(int column, int row, std::int16_t label) const {
-    const int u0 = column * kSide, v0 = row * kSide;
-    const int u_end = std::min(u0 + kSide, depth_.width),
-              v_end = std::min(v0 + kSide, depth_.height);
-    const double per_fx = 1.0 / camera_.fx;
-
-    PlaneCell result;
-    result.cell = row * columns_ + column;
-    PlaneSums& sums = result.sums;
-    // Sums of 1, w, wz and wz² times monomials of the ray (x, y); y is the same along a row.
-    double w = 0, wz = 0, wzx = 0, wzy = 0, s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
-    double n = 0, nx = 0, ny = 0, nxx = 0, nxy = 0, nyy = 0;
-    for (int v = v0; v < v_end; v += row_step_) {
-      double row_wz = 0, row_wzx = 0, row_s = 0, row_sx = 0, row_n = 0, row_nx = 0;
-      for (int u = u0; u < u_end; ++u) {
-        const auto pixel = static_cast<std::size_t>(v * depth_.width + u);
-        if (label_[pixel] != label) continue;
-        result.box.extend(Eigen::Vector2i(u, v));
-        const double x = (u - camera_.cx) * per_fx;
-        const std::size_t reading = depth_.millimetres[pixel];
-        const double z = 0.001 * static_cast<double>(reading);
-        const double a = weight_[reading];
-        const double b = a * z;
-        const double c = b * z;
-        const double cx = c * x;
-        w += a;
-        row_wz += b;
-        row_wzx += b * x;
-        row_s += c;
-        row_sx += cx;
-        sxx += cx * x;
-        row_n += 1.0;
-        row_nx += x;
-        nxx += x * x;
-        if (has_color_) {
-          for (std::size_t k = 0; k < 3; ++k) sums.color[k] += color_.rgb[3 * pixel + k];
-        }
-      }
-      const double y = (v - camera_.cy) / camera_.fy;
-      wz += row_wz;
-      wzx += row_wzx;
-      wzy += y * row_wz;
-      s += row_s;
-      sx += row_sx;
-      sy += y * row_s;
-      sxy += y * row_sx;
-      syy += y * y * row_s;
-      n += row_n;
-      nx += row_nx;
-      ny += y * row_n;
-      nxy += y * row_nx;
-      nyy += y * y * row_n;
-    }
-    sums.pixels = static_cast<int>(n);
-    sums.moments.weight = w;
-    sums.moments.first << wzx, wzy, wz;
-    sums.moments.second << sxx, sxy, sx, sxy, syy, sy, sx, sy, s;
-    sums.moments.noise << nxx, nxy, nx, nxy, nyy, ny, nx, ny, n;
-    return result;
+  void finish(PartSums& sums) const {
+    sums.moments.second = second_.matrix();
+    sums.moments.noise = noise_sums_.matrix();
   }
 
  private:
-  const geometry::DepthImage& depth_;
-  const geometry::CameraModel& camera_;
-  const geometry::ColorImage& color_;
-  bool has_color_;
-  int columns_;
+  // xx, xy, yy, x, y, 1: the upper half of a symmetric matrix.
+  struct Vector6 {
+    double xx = 0, xy = 0, yy = 0, x = 0, y = 0, one = 0;
+    Vector6() = default;
+    Vector6(double a, double b, double c, double d, double e, double f)
+        : xx(a), xy(b), yy(c), x(d), y(e), one(f) {}
+    Vector6& operator+=(const Vector6& o) {
+      xx += o.xx;
+      xy += o.xy;
+      yy += o.yy;
+      x += o.x;
+      y += o.y;
+      one += o.one;
+      return *this;
+    }
+    friend Vector6 operator*(double f, const Vector6& v) {
+      return {f * v.xx, f * v.xy, f * v.yy, f * v.x, f * v.y, f * v.one};
+    }
+    Eigen::Matrix3d matrix() const {
+      Eigen::Matrix3d m;
+      m << xx, xy, x, xy, yy, y, x, y, one;
+      return m;
+    }
+  };
+
+  bool is_own(int u, int v) const {
+    return label_[static_cast<std::size_t>(v) * static_cast<std::size_t>(frame_.depth.width) +
+                  static_cast<std::size_t>(u)] == plane_;
+  }
+
+  CellSums sums_of_label(const PlaneCell& cell) const {
+    const geometry::CameraModel& camera = frame_.depth_camera;
+    CellSums sums;
+    for (int v = cell.box.min().y(); v <= cell.box.max().y(); ++v) {
+      for (int u = cell.box.min().x(); u <= cell.box.max().x(); ++u) {
+        if (!is_own(u, v)) continue;
+        sums.add((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy,
+                 0.001 * frame_.depth.at(u, v));
+      }
+    }
+    return sums;
+  }
+
+  void add_color(const PlaneCell& cell, PartSums& sums) const {
+    std::array<int, 3> color{};
+    for (int v = cell.box.min().y(); v <= cell.box.max().y(); ++v) {
+      const std::uint8_t* rgb =
+          frame_.color.rgb.data() + 3 * static_cast<std::ptrdiff_t>(v) * frame_.color.width;
+      for (int u = cell.box.min().x(); u <= cell.box.max().x(); ++u) {
+        if (!is_own(u, v)) continue;
+        for (std::size_t k = 0; k < 3; ++k) color[k] += rgb[3 * static_cast<std::size_t>(u) + k];
+      }
+    }
+    for (std::size_t k = 0; k < 3; ++k) sums.color[k] += color[k];
+  }
+
+  const geometry::RgbdFrame& frame_;
+  const DepthCells& cells_;
+  const geometry::DepthNoise& noise_;
   const std::vector<std::int16_t>& label_;
-  int row_step_;
-  std::vector<double> weight_;  // 1/σ_z² per depth reading [1/m²]
+  std::int16_t plane_;
+  bool has_color_;
+  Vector6 second_, noise_sums_;
 };
 
-// Empty lists with room for about as many cells as the planes cover: the largest memory in use.
-std::vector<std::vector<PlaneCell>> reserve_cells(const std::vector<std::int16_t>& label,
-                                                  std::size_t planes, int row_step) {
-  std::vector<std::size_t> covered(planes, 0);
-  for (std::size_t i = 0; i < label.size(); i += kSide) {
-    if (label[i] != kNoPlane) ++covered[static_cast<std::size_t>(label[i])];
+// Adds the pixels of one cell to the planes they are on.
+void collect_cell(const geometry::DepthImage& depth, int column, int row, double readings, int cell,
+                  PlanePixels& pixels) {
+  std::array<PlaneCell*, kSide * kSide> known{};
+  std::array<std::int16_t, kSide * kSide> plane{};
+  std::size_t count = 0;
+  for (int v = row * kSide; v < std::min((row + 1) * kSide, depth.height); ++v) {
+    const std::int16_t* line = pixels.label.data() + static_cast<std::ptrdiff_t>(v) * depth.width;
+    for (int u = column * kSide; u < std::min((column + 1) * kSide, depth.width); ++u) {
+      if (line[u] == kNoPlane) continue;
+      std::size_t i = 0;
+      while (i < count && plane[i] != line[u]) ++i;
+      if (i == count) {
+        plane[count] = line[u];
+        known[count] = &pixels.cells[static_cast<std::size_t>(line[u])].emplace_back();
+        known[count++]->cell = cell;
+      }
+      ++known[i]->pixels;
+      known[i]->box.extend(Eigen::Vector2i(u, v));
+    }
   }
-  std::vector<std::vector<PlaneCell>> cells(planes);
-  for (std::size_t i = 0; i < planes; ++i) {
-    cells[i].reserve(covered[i] * static_cast<std::size_t>(row_step) / kSide + kSide);
-  }
-  return cells;
+  if (count == 1) known[0]->is_whole = known[0]->pixels == static_cast<int>(readings);
 }
 
 }  // namespace
 
-PlaneSums& PlaneSums::operator+=(const PlaneSums& other) {
-  moments += other.moments;
-  pixels += other.pixels;
-  for (std::size_t k = 0; k < color.size(); ++k) color[k] += other.color[k];
-  return *this;
-}
-
-PlanePixels sum_pixels(const geometry::RgbdFrame& frame, const DepthCells& cells,
-                       const geometry::DepthNoise& noise, std::vector<std::int16_t> label,
-                       std::size_t planes, int row_step) {
+PlanePixels collect_pixels(const geometry::RgbdFrame& frame, const DepthCells& cells,
+                           std::vector<std::int16_t> label, std::size_t planes) {
   PlanePixels result;
   result.label = std::move(label);
-  result.cells = reserve_cells(result.label, planes, row_step);
-  result.cell_label.assign(static_cast<std::size_t>(cells.size()), kNoPlane);
-  const CellSummer summer(frame, cells, noise, result.label, row_step);
-  std::array<std::int16_t, kSide * kSide> labels{};
+  result.cells.resize(planes);
   for (int row = 0; row < cells.rows(); ++row) {
+    const double* readings = cells.row(row, DepthCells::kCount);
     for (int column = 0; column < cells.columns(); ++column) {
-      const int distinct = summer.distinct_labels(column, row, labels);
-      int most = 0;
-      for (int k = 0; k < distinct; ++k) {
-        const std::int16_t plane = labels[static_cast<std::size_t>(k)];
-        auto& of_plane = result.cells[static_cast<std::size_t>(plane)];
-        of_plane.push_back(summer.sum(column, row, plane));
-        if (of_plane.back().sums.pixels <= most) continue;
-        most = of_plane.back().sums.pixels;
-        result.cell_label[static_cast<std::size_t>(cells.index(column, row))] = plane;
-      }
+      if (readings[column] == 0.0) continue;
+      collect_cell(frame.depth, column, row, readings[column], cells.index(column, row), result);
     }
   }
   return result;
+}
+
+PartSums sum_part(const geometry::RgbdFrame& frame, const DepthCells& cells,
+                  const geometry::DepthNoise& noise, const std::vector<std::int16_t>& label,
+                  std::int16_t plane, const PlanePart& part) {
+  PartSums sums;
+  sums.points.reserve(part.size());
+  PartSummer summer(frame, cells, noise, label, plane);
+  for (const PlaneCell* cell : part) summer.add(*cell, sums);
+  summer.finish(sums);
+  return sums;
 }
 
 }  // namespace geomap::perception

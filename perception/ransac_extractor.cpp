@@ -9,7 +9,6 @@
 #include "geometry/angles.hpp"
 #include "geometry/polygon_simplify.hpp"
 #include "perception/euclidean_clusters.hpp"
-#include "perception/merge_planes.hpp"
 #include "perception/part_outline.hpp"
 #include "perception/pixel_labels.hpp"
 #include "perception/plane_observation.hpp"
@@ -17,13 +16,11 @@
 #include "perception/plane_pixels.hpp"
 #include "perception/plane_rays.hpp"
 #include "perception/ransac_planes.hpp"
+#include "perception/surface_region.hpp"
 #include "perception/voxel_cloud.hpp"
 
 namespace geomap::perception {
 namespace {
-
-// The first assignment of pixels only has to be good enough to fit and merge planes.
-constexpr int kFirstRowStep = 2;
 
 using Clock = std::chrono::steady_clock;
 
@@ -79,56 +76,38 @@ std::vector<VoxelPlane> find_planes(const RansacExtractorConfig& config, const V
   return planes;
 }
 
-// Planes as RANSAC found them, and the cells that are on them.
-struct Seeds {
-  std::vector<geometry::Plane> planes;
-  std::vector<std::int16_t> cell_label;
-};
-
-// Paper: voxel filter, Euclidean clusters, RANSAC.
-Seeds find_seeds(const RansacExtractorConfig& config, const geometry::CameraModel& camera,
-                 const DepthCells& cells, const std::vector<CellNormal>& normals,
-                 const DepthTolerance& tolerance, std::uint64_t seed) {
+// Paper: voxel filter, Euclidean clusters, RANSAC. Fitted to their cells, not voxels, and joined
+// where RANSAC cut one surface in two.
+CellRegions find_regions(const RansacExtractorConfig& config, const geometry::CameraModel& camera,
+                         const DepthCells& cells, const std::vector<CellNormal>& normals,
+                         const DepthTolerance& tolerance, std::uint64_t seed) {
   const double reference = even_density_depth(config, camera);
   const VoxelCloud cloud = make_voxel_cloud(cells, normals, config.voxel_size, reference);
   const std::vector<VoxelPlane> found = find_planes(config, cloud, reference, tolerance, seed);
-  Seeds seeds;
-  for (const VoxelPlane& plane : found) seeds.planes.push_back(plane.plane);
-  seeds.cell_label = label_cells(cloud, found);
-  return seeds;
-}
-
-struct Surfaces {
-  std::vector<geometry::Plane> planes;
-  PlanePixels pixels;
-};
-
-// From seeds to all pixels: a quick assignment to fit and merge, then the final one.
-Surfaces grow_surfaces(const RansacExtractorConfig& config, const geometry::RgbdFrame& frame,
-                       const DepthCells& cells, const DepthTolerance& tolerance,
-                       const PixelLabeler& labeler, const Seeds& seeds) {
-  const PlanePixels first = sum_pixels(frame, cells, tolerance.noise,
-                                       labeler.label(seeds.planes, seeds.cell_label, kFirstRowStep),
-                                       seeds.planes.size(), kFirstRowStep);
-  FittedPlanes fitted =
-      fit_and_merge(cells, first, tolerance, radians(config.max_merge_angle_deg), kFirstRowStep);
-  Surfaces surfaces;
-  surfaces.pixels =
-      sum_pixels(frame, cells, tolerance.noise, labeler.label(fitted.planes, fitted.cell_label),
-                 fitted.planes.size());
-  surfaces.planes = std::move(fitted.planes);
-  return surfaces;
+  std::vector<std::int16_t> label = label_cells(cloud, found);
+  std::vector<SurfaceRegion> regions(found.size());
+  for (int i = 0; i < cells.size(); ++i) {
+    if (label[static_cast<std::size_t>(i)] == kNoPlane) continue;
+    SurfaceRegion& region = regions[static_cast<std::size_t>(label[static_cast<std::size_t>(i)])];
+    region.cells.push_back(i);
+    region.sums += cells.cell(i);
+  }
+  for (SurfaceRegion& region : regions) region.fit();
+  return merge_regions(cells, cell_means(cells, tolerance), tolerance,
+                       radians(config.max_merge_angle_deg), std::move(regions), std::move(label));
 }
 
 // Paper: clustering of the inliers, concave hull.
 std::vector<FoundPart> outline_surfaces(const RansacExtractorConfig& config,
                                         const geometry::RgbdFrame& frame, const DepthCells& cells,
-                                        const DepthTolerance& tolerance, const Surfaces& surfaces,
+                                        const DepthTolerance& tolerance,
+                                        const std::vector<geometry::Plane>& planes,
+                                        const PlanePixels& pixels,
                                         const std::optional<Eigen::Vector3d>& up_camera) {
   const geometry::CameraModel& camera = frame.depth_camera;
-  const LabelImage image{surfaces.pixels.label, frame.depth.width};
+  const LabelImage image{pixels.label, frame.depth.width};
   std::vector<FoundPart> found =
-      find_parts(config, frame, cells, tolerance, surfaces.planes, surfaces.pixels, up_camera);
+      find_parts(config, frame, cells, tolerance, planes, pixels, up_camera);
   std::erase_if(found, [&](FoundPart& f) {
     geometry::PlanarPolygon& surface = f.observation.surface;
     const Eigen::Vector2d centre = camera.project(surface.frame.origin);
@@ -156,17 +135,19 @@ ExtractedPlanes RansacExtractor::extract(const geometry::RgbdFrame& frame, std::
   const DepthCells cells(frame.depth, frame.depth_camera, config_.min_depth, config_.max_depth);
   const DepthTolerance tolerance = config_.tolerance_of(cells);
   const auto normals = estimate_normals(cells, frame.depth_camera, tolerance);
-  const Seeds seeds = find_seeds(config_, frame.depth_camera, cells, normals, tolerance, seed);
+  const CellRegions regions =
+      find_regions(config_, frame.depth_camera, cells, normals, tolerance, seed);
   const PixelLabeler labeler(frame, cells, normals, tolerance, config_.min_depth, config_.max_depth,
                              radians(config_.max_normal_angle_deg));
-  const Surfaces surfaces = grow_surfaces(config_, frame, cells, tolerance, labeler, seeds);
+  const PlanePixels pixels = collect_pixels(
+      frame, cells, labeler.label(regions.planes, regions.cell_label), regions.planes.size());
   result.noise = tolerance.noise;
   result.extraction_seconds = seconds_since(start);
 
   const Clock::time_point hull_start = Clock::now();
   std::vector<FoundPart> found =
-      outline_surfaces(config_, frame, cells, tolerance, surfaces, up_camera);
-  result.label = label_parts(found, surfaces.pixels.label, frame.depth.width);
+      outline_surfaces(config_, frame, cells, tolerance, regions.planes, pixels, up_camera);
+  result.label = label_parts(found, pixels.label, frame.depth.width);
   for (FoundPart& plane : found) result.planes.push_back(std::move(plane.observation));
   result.hull_seconds = seconds_since(hull_start);
   return result;

@@ -39,10 +39,19 @@ struct SurfaceRegion {
 /// [m].
 double rms_about(const InverseDepthSums& sums, const InversePlane& plane);
 
-/// @brief Joins regions that touch and are one surface; drops what noise makes up across an edge.
-/// Regions that go lose their plane; the cells of joined ones move. `label` follows.
-void merge_regions(const DepthCells& cells, const std::vector<CellMean>& means,
-                   const DepthTolerance& tolerance, double max_angle,
-                   std::vector<SurfaceRegion>& regions, std::vector<std::int16_t>& label);
+/// @brief Planes of a depth image, and the cells that are on them.
+struct CellRegions {
+  std::vector<geometry::Plane> planes;   // normals towards the camera (d > 0)
+  std::vector<std::int16_t> cell_label;  // per cell: index into planes, or kNoPlane
+};
+
+/// @brief Joins regions that touch in the image and are one surface under the sensor's tolerance;
+/// drops those without a plane, and what noise makes up across an edge.
+/// @param max_angle between planes that may be joined [rad]; small ones may be turned by twice as
+/// much
+/// @param label per cell its region, or negative
+CellRegions merge_regions(const DepthCells& cells, const std::vector<CellMean>& means,
+                          const DepthTolerance& tolerance, double max_angle,
+                          std::vector<SurfaceRegion> regions, std::vector<std::int16_t> label);
 
 }  // namespace geomap::perception

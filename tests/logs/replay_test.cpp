@@ -319,6 +319,8 @@ TEST(PipelineConfig, TheDefaultFileHoldsTheDefaultsOfTheClassesAndNothingElse) {
   checks.expect_defaults<perception::RegistrationConfig>("registration");
   checks.expect_defaults<perception::DepthCorrectionConfig>("depth_correction");
   checks.expect_defaults<perception::PointMapConfig>("point_map");
+  checks.expect_defaults<perception::ExtractorChoice>("extraction");
+  checks.expect_defaults<perception::OrganizedExtractorConfig>("organized");
   checks.expect_defaults<perception::RansacExtractorConfig>("ransac");
   checks.expect_defaults<mapping::MergeConfig>("merge");
   checks.expect_defaults<mapping::HistoryConfig>("history");

@@ -13,8 +13,7 @@ using Height = std::function<double(double s, double t)>;
 // Cells of a patch at z = 2 m that is `length` by `width`, heights over its plane given; and the
 // plane that fits it best.
 struct Patch {
-  std::vector<PlaneCell> cells;
-  PlanePart part;
+  std::vector<CellPoint> part;
   geometry::PlaneFit fit;
 
   Patch(double length, double width, const Height& height, double sigma = 0.0, unsigned seed = 1) {
@@ -26,14 +25,13 @@ struct Patch {
       const double s = length * ((i % kAlong + 0.5) / kAlong - 0.5);
       const double t = width * ((i / kAlong + 0.5) / kAcross - 0.5);
       const Eigen::Vector3d p(s, t, 2.0 - height(s, t) + sigma * noise(generator));
-      PlaneCell& cell = cells.emplace_back();
-      cell.sums.pixels = 16;
-      cell.sums.moments.weight = 16.0;
-      cell.sums.moments.first = 16.0 * p;
-      cell.sums.moments.second = 16.0 * p * p.transpose();
-      all += cell.sums.moments;
+      part.push_back({p, 16.0});
+      geometry::PlaneMoments moments;
+      moments.weight = 16.0;
+      moments.first = 16.0 * p;
+      moments.second = 16.0 * p * p.transpose();
+      all += moments;
     }
-    for (const PlaneCell& cell : cells) part.push_back(&cell);
     fit = *all.fit(-all.centroid());
   }
 };
@@ -86,7 +84,7 @@ TEST(PartCurvature, SigmaSaysHowMuchNoiseFeigns) {
 
 TEST(PartCurvature, OfTooFewCellsNothingIsKnown) {
   const Patch patch(0.5, 0.3, [](double, double) { return 0.0; });
-  EXPECT_FALSE(curvature_of(PlanePart(patch.part.begin(), patch.part.begin() + 11), patch.fit));
+  EXPECT_FALSE(curvature_of({patch.part.begin(), patch.part.begin() + 11}, patch.fit));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ const geometry::Plane kWall{-Eigen::Vector3d::UnitZ(), 1.0};  // 1 m: 6 pixels a
 PlaneCell cell_at(int column, int row) {
   PlaneCell cell;
   cell.cell = row * kColumns + column;
-  cell.sums.pixels = 16;
+  cell.pixels = 16;
   cell.box.extend(Eigen::Vector2i(4 * column, 4 * row));
   cell.box.extend(Eigen::Vector2i(4 * column + 3, 4 * row + 3));
   return cell;
