@@ -43,6 +43,7 @@ std::vector<std::string> ExtractionConfig::validate() const {
   check.between("max_normal_angle_deg", max_normal_angle_deg, 1.0, 60.0);
   check.between("max_merge_angle_deg", max_merge_angle_deg, 0.0, 45.0);
   check.between("part_gap", part_gap, 0.0, 1.0);
+  check.between("simplify_tolerance", simplify_tolerance, 0.0, 0.5);
   check.between("min_area", min_area, 0.0, 100.0);
   check.between("min_pixels", min_pixels, 10, 1e7);
   check.between("min_fill", min_fill, 0.0, 1.0);

@@ -26,6 +26,8 @@ struct ExtractionConfig {
   double max_merge_angle_deg = 8.0;    // between pieces of one surface
   double part_gap = 0.03;  // between inliers of one plane; beyond, they are two planes [m]
 
+  double simplify_tolerance = 0.01;  // of the outline, one pixel's length is added [m]
+
   double min_area = 0.015;     // of a plane [m²]
   int min_pixels = 200;        // of a plane
   double min_fill = 0.4;       // share of the outline's area that pixels cover
@@ -57,6 +59,7 @@ struct ExtractionConfig {
     visitor("max_normal_angle_deg", self.max_normal_angle_deg);
     visitor("max_merge_angle_deg", self.max_merge_angle_deg);
     visitor("part_gap", self.part_gap);
+    visitor("simplify_tolerance", self.simplify_tolerance);
     visitor("min_area", self.min_area);
     visitor("min_pixels", self.min_pixels);
     visitor("min_fill", self.min_fill);

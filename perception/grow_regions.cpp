@@ -26,7 +26,7 @@ class Grower {
       : cells_(cells),
         normals_(normals),
         means_(means),
-        unevenness_(kMeanShare * tolerance.unevenness),
+        tolerance_(tolerance),
         cosine_(std::cos(max_normal_angle)),
         label_(static_cast<std::size_t>(cells.size()), kNoPlane) {}
 
@@ -106,11 +106,7 @@ class Grower {
   void try_cell(int cell, std::int16_t number, SurfaceRegion& region) {
     if (!is_free(cell)) return;
     const auto i = static_cast<std::size_t>(cell);
-    const CellMean& mean = means_[i];
-    const InversePlane& plane = *region.plane;
-    const double allowed = mean.allowed + unevenness_ * mean.q * plane.length;
-    if (std::abs(plane.off(mean)) > allowed) return;
-    if (-normals_[i].normal.dot(plane.coefficients()) < cosine_ * plane.length) return;
+    if (!region.plane->holds(means_[i], normals_[i].normal, tolerance_, cosine_)) return;
     take(cell, number, region);
   }
 
@@ -125,7 +121,7 @@ class Grower {
   const DepthCells& cells_;
   const std::vector<CellNormal>& normals_;
   const std::vector<CellMean>& means_;
-  double unevenness_;
+  const DepthTolerance& tolerance_;
   double cosine_;
   std::vector<std::int16_t> label_;
   std::vector<SurfaceRegion> regions_;
@@ -139,8 +135,8 @@ CellRegions grow_regions(const DepthCells& cells, const std::vector<CellNormal>&
   const std::vector<CellMean> means = cell_means(cells, tolerance);
   Grower grower(cells, normals, means, tolerance, max_normal_angle);
   grower.grow_all();
-  return merge_regions(cells, means, tolerance, max_merge_angle, std::move(grower.regions()),
-                       std::move(grower.label()));
+  return merge_regions(cells, normals, means, tolerance, max_normal_angle, max_merge_angle,
+                       std::move(grower.regions()), std::move(grower.label()));
 }
 
 }  // namespace geomap::perception

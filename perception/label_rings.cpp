@@ -6,8 +6,20 @@
 #include <cstddef>
 #include <utility>
 
+#include "geometry/multiversion.hpp"
+
 namespace geomap::perception {
 namespace {
+
+// Where a border runs along the upper edge of a row's pixels.
+GEOMAP_MULTIVERSION void find_tops(const std::int16_t* __restrict row,
+                                   const std::int16_t* __restrict above, int width,
+                                   std::uint8_t* __restrict is_top) {
+  for (int x = 0; x < width; ++x) {
+    is_top[x] = static_cast<std::uint8_t>(static_cast<int>(row[x] >= 0) &
+                                          static_cast<int>(row[x] != above[x]));
+  }
+}
 
 class Tracer {
  public:
@@ -19,11 +31,16 @@ class Tracer {
 
   std::vector<LabelRing> all() {
     std::vector<LabelRing> rings;
+    const std::vector<std::int16_t> outside(static_cast<std::size_t>(width_), -1);
+    std::vector<std::uint8_t> is_top(static_cast<std::size_t>(width_));
     for (int y = 0; y < height_; ++y) {
-      for (int x = 0; x < width_; ++x) {
-        const std::size_t i = index(x, y);
-        if (label_[i] < 0 || walked_[i] != 0 || is(x, y - 1, label_[i])) continue;
-        rings.push_back(walk(x, y, label_[i]));
+      const std::int16_t* row = label_.data() + index(0, y);
+      const std::int16_t* above = y > 0 ? row - width_ : outside.data();
+      find_tops(row, above, width_, is_top.data());
+      for (auto top = is_top.begin();
+           (top = std::find(top, is_top.end(), std::uint8_t{1})) != is_top.end(); ++top) {
+        const int x = static_cast<int>(top - is_top.begin());
+        if (walked_[index(x, y)] == 0) rings.push_back(walk(x, y, label_[index(x, y)]));
       }
     }
     return rings;

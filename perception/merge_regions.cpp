@@ -13,6 +13,8 @@ namespace {
 
 constexpr int kReach = 3;          // cells between regions that count as touching [cell]
 constexpr int kLeastContacts = 4;  // pairs of cells
+constexpr int kRounds = 3;         // of adding the cells beside a region
+constexpr int kAlone = 2;          // no plane is nearer than that [cell]
 // Share of the tolerance that a region's rms about the joint plane may take. A half is 1.5 sigma.
 constexpr double kRmsShare = 0.5;
 
@@ -185,7 +187,78 @@ class Joiner {
   std::vector<int> joined_to_;
 };
 
+bool is_alone(const DepthCells& cells, int cell, const std::vector<std::int16_t>& label) {
+  const int column = cell % cells.columns(), row = cell / cells.columns();
+  for (int r = std::max(0, row - kAlone); r <= std::min(cells.rows() - 1, row + kAlone); ++r) {
+    for (int c = std::max(0, column - kAlone); c <= std::min(cells.columns() - 1, column + kAlone);
+         ++c) {
+      if (label[static_cast<std::size_t>(cells.index(c, r))] >= 0) return false;
+    }
+  }
+  return true;
+}
+
+// Parts of a plane may be too narrow, or too far from the rest, to be found by themselves: cells
+// that lie on a plane and have its normal, where no other plane is near.
+void claim_cells(const DepthCells& cells, const std::vector<CellMean>& means,
+                 const std::vector<CellNormal>& normals, const DepthTolerance& tolerance,
+                 double max_normal_angle, const std::vector<SurfaceRegion>& regions,
+                 std::vector<std::int16_t>& label) {
+  const std::vector<std::int16_t> known = label;
+  const double cosine = std::cos(max_normal_angle);
+  for (std::size_t cell = 0; cell < label.size(); ++cell) {
+    if (label[cell] >= 0 || normals[cell].kind != CellNormal::Kind::kPlanar ||
+        !is_alone(cells, static_cast<int>(cell), known)) {
+      continue;
+    }
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      if (!regions[i].plane ||
+          !regions[i].plane->holds(means[cell], normals[cell].normal, tolerance, cosine)) {
+        continue;
+      }
+      label[cell] = static_cast<std::int16_t>(i);
+      break;
+    }
+  }
+}
+
+// Cells without a normal of their own, as beside a border, that lie on the plane next to them.
+void extend_regions(const DepthCells& cells, const std::vector<CellMean>& means,
+                    const std::vector<CellNormal>& normals, const DepthTolerance& tolerance,
+                    double max_normal_angle, const std::vector<SurfaceRegion>& regions,
+                    std::vector<std::int16_t>& label) {
+  const double cosine = std::cos(max_normal_angle);
+  const int columns = cells.columns(), size = cells.size();
+  std::vector<std::pair<int, std::int16_t>> added;
+  for (int round = 0; round < kRounds; ++round) {
+    added.clear();
+    for (int cell = 0; cell < size; ++cell) {
+      const auto i = static_cast<std::size_t>(cell);
+      if (label[i] >= 0 || !(means[i].q > 0.0F)) continue;
+      for (const int other : {cell - 1, cell + 1, cell - columns, cell + columns}) {
+        if (other < 0 || other >= size || label[static_cast<std::size_t>(other)] < 0) continue;
+        const std::int16_t near = label[static_cast<std::size_t>(other)];
+        const auto& plane = regions[static_cast<std::size_t>(near)].plane;
+        if (!plane) continue;
+        const bool has_normal = normals[i].kind == CellNormal::Kind::kPlanar;
+        const Eigen::Vector3d normal =
+            has_normal ? normals[i].normal : plane->plane().normal.eval();
+        if (!plane->holds(means[i], normal, tolerance, cosine)) continue;
+        added.emplace_back(cell, near);
+        break;
+      }
+    }
+    for (const auto& [cell, near] : added) label[static_cast<std::size_t>(cell)] = near;
+  }
+}
+
 }  // namespace
+
+bool InversePlane::holds(const CellMean& mean, const Eigen::Vector3d& normal,
+                         const DepthTolerance& tolerance, double cosine) const {
+  const double allowed = mean.allowed + kMeanShare * tolerance.unevenness * mean.q * length;
+  return std::abs(off(mean)) <= allowed && -normal.dot(coefficients()) >= cosine * length;
+}
 
 void SurfaceRegion::fit() {
   const auto found = fit_plane(sums);
@@ -200,13 +273,16 @@ double rms_about(const InverseDepthSums& s, const InversePlane& p) {
   return std::sqrt(std::max(0.0, squares) / s.count) * s.mean_depth() / p.length;
 }
 
-CellRegions merge_regions(const DepthCells& cells, const std::vector<CellMean>& means,
-                          const DepthTolerance& tolerance, double max_angle,
+CellRegions merge_regions(const DepthCells& cells, const std::vector<CellNormal>& normals,
+                          const std::vector<CellMean>& means, const DepthTolerance& tolerance,
+                          double max_normal_angle, double max_merge_angle,
                           std::vector<SurfaceRegion> regions, std::vector<std::int16_t> label) {
   const Contacts contacts = count_contacts(cells, label);
-  Joiner joiner(means, tolerance, max_angle, regions, label);
+  Joiner joiner(means, tolerance, max_merge_angle, regions, label);
   joiner.join_all(contacts);
   joiner.drop_made_up(contacts, cells);
+  extend_regions(cells, means, normals, tolerance, max_normal_angle, regions, label);
+  claim_cells(cells, means, normals, tolerance, max_normal_angle, regions, label);
 
   CellRegions result;
   std::vector<std::int16_t> index(regions.size(), kNoPlane);

@@ -28,14 +28,11 @@ double seconds_since(Clock::time_point start) {
 std::vector<FoundPart> outline(const OrganizedExtractorConfig& config,
                                const geometry::RgbdFrame& frame, std::vector<FoundPart> found,
                                std::vector<std::int16_t>& label) {
-  std::vector<geometry::Plane> planes;
   std::vector<geometry::PlanarPolygon> surfaces;
   for (const FoundPart& f : found) {
-    planes.push_back(f.observation.surface.plane);
     surfaces.push_back(f.observation.surface);
   }
-  const auto filled = fill_holes(frame, planes, config.max_hole_area, label);
-  outline_regions(frame.depth_camera, filled, surfaces);
+  outline_regions(frame, {config.simplify_tolerance, config.max_hole_area}, label, surfaces);
   std::vector<std::int16_t> number(found.size(), kNoPlane);
   std::vector<FoundPart> kept;
   for (std::size_t i = 0; i < found.size(); ++i) {

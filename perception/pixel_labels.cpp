@@ -318,14 +318,23 @@ void PixelLabeler::settle_cell(int column, int row, const Candidates& candidates
   around.compare_with(candidates);
   int first = -1, second = -1;  // none
   bool farther = false;
-  float least = kNoneCost * static_cast<float>(around.size);
+  const auto size = static_cast<float>(around.size);
+  float least = kNoneCost * size;
+  std::array<float, kMostCandidates> cost_alone{};
   for (int i = 0; i < candidates.count; ++i) {
-    const float alone = around.cost(i, i, false) * (i == candidates.own ? kOwnEdge : 1.0F);
-    if (alone < least) {
-      least = alone;
-      first = second = i;
-    }
+    float& alone = cost_alone[static_cast<std::size_t>(i)];
+    alone = around.cost(i, i, false);
+    const float scored = alone * (i == candidates.own ? kOwnEdge : 1.0F);
+    if (scored >= least) continue;
+    least = scored;
+    first = second = i;
+  }
+  for (int i = 0; i < candidates.count; ++i) {
     for (int j = 0; j < i; ++j) {
+      // Beside what they explain alone nothing is left to gain.
+      const float gain = 2.0F * size - cost_alone[static_cast<std::size_t>(i)] -
+                         cost_alone[static_cast<std::size_t>(j)];
+      if (size - gain + kEdgeCost >= least) continue;
       for (const bool is_convex : {false, true}) {
         const float cost = around.cost(i, j, is_convex) + kEdgeCost;
         if (cost >= least) continue;

@@ -93,8 +93,9 @@ CellRegions find_regions(const RansacExtractorConfig& config, const geometry::Ca
     region.sums += cells.cell(i);
   }
   for (SurfaceRegion& region : regions) region.fit();
-  return merge_regions(cells, cell_means(cells, tolerance), tolerance,
-                       radians(config.max_merge_angle_deg), std::move(regions), std::move(label));
+  return merge_regions(cells, normals, cell_means(cells, tolerance), tolerance,
+                       radians(config.max_normal_angle_deg), radians(config.max_merge_angle_deg),
+                       std::move(regions), std::move(label));
 }
 
 // Paper: clustering of the inliers, concave hull.

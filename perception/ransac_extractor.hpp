@@ -17,7 +17,6 @@ struct RansacExtractorConfig : ExtractionConfig {
   int min_cluster_voxels = 8;
   int ransac_iterations = 300;  // at most, per plane
   double alpha = 0.06;          // of the concave hull: largest circumscribed circle, radius [m]
-  double simplify_tolerance = 0.01;  // of the outline, one pixel's length is added [m]
 
   std::vector<std::string> validate() const;
 
@@ -29,7 +28,6 @@ struct RansacExtractorConfig : ExtractionConfig {
     visitor("min_cluster_voxels", self.min_cluster_voxels);
     visitor("ransac_iterations", self.ransac_iterations);
     visitor("alpha", self.alpha);
-    visitor("simplify_tolerance", self.simplify_tolerance);
   }
 };
 

@@ -11,7 +11,6 @@ std::vector<std::string> RansacExtractorConfig::validate() const {
   check.between("min_cluster_voxels", min_cluster_voxels, 3, 1e6);
   check.between("ransac_iterations", ransac_iterations, 1, 1e6);
   check.between("alpha", alpha, 0.01, 1.0);
-  check.between("simplify_tolerance", simplify_tolerance, 0.0, 0.5);
   return check.messages;
 }
 

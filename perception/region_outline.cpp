@@ -2,18 +2,21 @@
 #include "perception/region_outline.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <optional>
 
 #include "geometry/polygon_clip.hpp"
+#include "geometry/ring_contacts.hpp"
 #include "perception/plane_extractor.hpp"
 #include "perception/plane_rays.hpp"
 
 namespace geomap::perception {
 namespace {
 
-constexpr double kTolerance = 1.0;         // of an outline [pixel]
 constexpr std::int64_t kLeastPixels = 24;  // of a part of an outline
+// Of an outline's tolerance, over the root of its area: small ones keep their area too.
+constexpr double kToleranceOfSize = 0.04;
 
 struct Span {
   int y = 0, first = 0, last = 0;  // pixels [first, last) of row y
@@ -59,55 +62,98 @@ std::optional<geometry::Ring> lift_ring(const geometry::CameraModel& camera,
     if (!meets(camera, surface.plane, pixel)) return std::nullopt;
     ring.push_back(lift(camera, surface, y_axis, pixel));
   }
+  std::reverse(ring.begin(), ring.end());  // the frame's y axis points up
   return ring;
+}
+
+// Fills the hole within a ring, unless it is large or something else is seen in it.
+bool fill_hole(const geometry::RgbdFrame& frame, const LabelRing& ring,
+               const geometry::Plane& plane, double largest, std::vector<std::int16_t>& label) {
+  const Eigen::Vector2d at(ring.corners[0].x, ring.corners[0].y);
+  if (!meets(frame.depth_camera, plane, at)) return false;
+  const double pixel = pixel_area(frame.depth_camera, plane, at);
+  if (static_cast<double>(-ring.area) * pixel >= largest) return false;
+  const int width = frame.depth.width;
+  const std::vector<Span> spans = spans_of(ring);
+  for (const Span& span : spans) {
+    for (int x = span.first; x < span.last; ++x) {
+      const std::int16_t l = label[index(width, x, span.y)];
+      if (l != kNoPlane && l != ring.label) return false;
+    }
+  }
+  for (const Span& span : spans) {
+    for (int x = span.first; x < span.last; ++x) {
+      const std::size_t i = index(width, x, span.y);
+      if (!geometry::DepthImage::is_reading(frame.depth.millimetres[i])) label[i] = ring.label;
+    }
+  }
+  return true;
+}
+
+// Of rings that cross themselves, as simplified ones of thin parts may; the pockets that leaves are
+// no holes.
+geometry::Polygon untangle(const std::vector<geometry::Ring>& rings, double largest_hole) {
+  geometry::Polygon polygon = geometry::from_rings(rings, geometry::FillRule::kNonZero);
+  for (geometry::PolygonPart& part : polygon.parts) {
+    std::erase_if(part.holes, [largest_hole](const geometry::Ring& hole) {
+      return -geometry::signed_area(hole) < largest_hole;
+    });
+  }
+  if (polygon.parts.size() < 2) return polygon;
+  std::vector<geometry::Ring> kept;  // a part may have lain in a pocket
+  for (const geometry::Ring* ring : geometry::rings_of(polygon)) kept.push_back(*ring);
+  return geometry::from_rings(kept, geometry::FillRule::kNonZero);
+}
+
+// Outer rings counter-clockwise and holes clockwise, as traced: without contacts, and with one
+// outer ring, they are a polygon as they are.
+geometry::Polygon polygon_of(std::vector<geometry::Ring> rings, double largest_hole) {
+  std::vector<const geometry::Ring*> all;
+  geometry::PolygonPart part;
+  for (geometry::Ring& ring : rings) {
+    ring = geometry::without_collinear(ring);
+    all.push_back(&ring);
+  }
+  const bool is_plain =
+      std::all_of(rings.begin(), rings.end(), [](const auto& ring) { return ring.size() > 2; }) &&
+      std::count_if(rings.begin(), rings.end(),
+                    [](const auto& ring) { return geometry::signed_area(ring) > 0.0; }) == 1 &&
+      geometry::find_contacts(all).none();
+  if (!is_plain) return untangle(rings, largest_hole);
+  for (geometry::Ring& ring : rings) {
+    if (geometry::signed_area(ring) > 0.0) {
+      part.outer = std::move(ring);
+    } else {
+      part.holes.push_back(std::move(ring));
+    }
+  }
+  geometry::Polygon polygon;
+  polygon.parts.push_back(std::move(part));
+  return geometry::canonical(std::move(polygon));
 }
 
 }  // namespace
 
-std::vector<std::int16_t> fill_holes(const geometry::RgbdFrame& frame,
-                                     const std::vector<geometry::Plane>& planes, double largest,
-                                     std::vector<std::int16_t>& label) {
-  const int width = frame.depth.width;
-  std::vector<std::int16_t> filled = label;
-  for (const LabelRing& ring : trace_labels(label, width, frame.depth.height)) {
-    if (ring.area >= 0) continue;
-    const geometry::Plane& plane = planes[static_cast<std::size_t>(ring.label)];
-    const Eigen::Vector2d at(ring.corners[0].x, ring.corners[0].y);
-    if (!meets(frame.depth_camera, plane, at) ||
-        static_cast<double>(-ring.area) * pixel_area(frame.depth_camera, plane, at) >= largest) {
-      continue;
-    }
-    const std::vector<Span> spans = spans_of(ring);
-    const bool is_empty = std::all_of(spans.begin(), spans.end(), [&](const Span& span) {
-      return std::all_of(
-          label.begin() + static_cast<std::ptrdiff_t>(index(width, span.first, span.y)),
-          label.begin() + static_cast<std::ptrdiff_t>(index(width, span.last, span.y)),
-          [&](std::int16_t l) { return l == kNoPlane || l == ring.label; });
-    });
-    if (!is_empty) continue;
-    for (const Span& span : spans) {
-      for (int x = span.first; x < span.last; ++x) {
-        const std::size_t pixel = index(width, x, span.y);
-        filled[pixel] = ring.label;
-        if (!geometry::DepthImage::is_reading(frame.depth.millimetres[pixel])) {
-          label[pixel] = ring.label;
-        }
-      }
-    }
-  }
-  return filled;
-}
-
-void outline_regions(const geometry::CameraModel& camera, const std::vector<std::int16_t>& label,
+void outline_regions(const geometry::RgbdFrame& frame, const OutlineSettings& settings,
+                     std::vector<std::int16_t>& label,
                      std::vector<geometry::PlanarPolygon>& surfaces) {
+  const geometry::CameraModel& camera = frame.depth_camera;
   std::vector<std::vector<geometry::Ring>> rings(surfaces.size());
   std::vector<std::uint8_t> is_missed(surfaces.size(), 0);
   for (const LabelRing& ring : trace_labels(label, camera.width, camera.height)) {
-    if (std::abs(ring.area) < kLeastPixels) continue;
-    const std::vector<PixelCorner> corners = simplify_ring(ring.corners, kTolerance);
-    if (corners.size() < 3) continue;
     const auto of = static_cast<std::size_t>(ring.label);
-    auto lifted = lift_ring(camera, surfaces[of], corners);
+    const geometry::PlanarPolygon& surface = surfaces[of];
+    if (ring.area < 0 && fill_hole(frame, ring, surface.plane, settings.max_hole_area, label)) {
+      continue;
+    }
+    if (std::abs(ring.area) < kLeastPixels) continue;
+    const double pixel = pixel_length(camera, surface.plane, camera.project(surface.frame.origin));
+    const double tolerance =
+        std::min(1.0 + settings.simplify_tolerance / pixel,
+                 kToleranceOfSize * std::sqrt(static_cast<double>(std::abs(ring.area))));
+    const std::vector<PixelCorner> corners = simplify_ring(ring.corners, tolerance);
+    if (corners.size() < 3) continue;
+    auto lifted = lift_ring(camera, surface, corners);
     if (lifted) {
       rings[of].push_back(std::move(*lifted));
     } else {
@@ -115,8 +161,8 @@ void outline_regions(const geometry::CameraModel& camera, const std::vector<std:
     }
   }
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    if (is_missed[i] != 0) continue;
-    surfaces[i].polygon = geometry::from_rings(rings[i], geometry::FillRule::kNonZero);
+    if (is_missed[i] == 0)
+      surfaces[i].polygon = polygon_of(std::move(rings[i]), settings.max_hole_area);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "geometry/plane.hpp"
 #include "perception/cell_means.hpp"
+#include "perception/cell_normals.hpp"
 #include "perception/depth_cells.hpp"
 #include "perception/depth_tolerance.hpp"
 
@@ -23,6 +24,9 @@ struct InversePlane {
   Eigen::Vector3d coefficients() const { return {a, b, c}; }
   geometry::Plane plane() const { return {-coefficients() / length, 1.0 / length}; }
   double off(const CellMean& mean) const { return mean.q - (a * mean.x + b * mean.y + c); }
+  /// @brief Whether a cell's mean is within tolerance of the plane, and its normal agrees.
+  bool holds(const CellMean& mean, const Eigen::Vector3d& normal, const DepthTolerance& tolerance,
+             double cosine) const;
 };
 
 /// @brief Cells of one plane.
@@ -46,12 +50,15 @@ struct CellRegions {
 };
 
 /// @brief Joins regions that touch in the image and are one surface under the sensor's tolerance;
-/// drops those without a plane, and what noise makes up across an edge.
-/// @param max_angle between planes that may be joined [rad]; small ones may be turned by twice as
-/// much
+/// drops those without a plane, and what noise makes up across an edge. Cells without a region that
+/// lie on a plane and have its normal become that plane's.
+/// @param max_normal_angle between a cell's normal and its plane's [rad]
+/// @param max_merge_angle between planes that may be joined [rad]; small ones may be turned by
+/// twice as much
 /// @param label per cell its region, or negative
-CellRegions merge_regions(const DepthCells& cells, const std::vector<CellMean>& means,
-                          const DepthTolerance& tolerance, double max_angle,
+CellRegions merge_regions(const DepthCells& cells, const std::vector<CellNormal>& normals,
+                          const std::vector<CellMean>& means, const DepthTolerance& tolerance,
+                          double max_normal_angle, double max_merge_angle,
                           std::vector<SurfaceRegion> regions, std::vector<std::int16_t> label);
 
 }  // namespace geomap::perception
