@@ -43,21 +43,87 @@ GEOMAP_MULTIVERSION void compare(const float* __restrict u, const float* __restr
   }
 }
 
-// Sum of what readings are off the farther, or the nearer, of two planes; in a fixed order.
-GEOMAP_MULTIVERSION float cost_of(const float* __restrict square_a,
-                                  const float* __restrict square_b, const float* __restrict depth_a,
-                                  const float* __restrict depth_b, int size, bool farther) {
+// Sum of what readings are off the nearer of two planes; in a fixed order. What they are off the
+// farther one is the rest of both planes' sums.
+GEOMAP_MULTIVERSION float cost_of_nearer(const float* __restrict square_a,
+                                         const float* __restrict square_b,
+                                         const float* __restrict depth_a,
+                                         const float* __restrict depth_b, int size) {
   std::array<float, kLanes> sums{};
   for (int block = 0; block < size; block += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const int i = block + lane;
-      const bool takes_b = (depth_a[i] > depth_b[i]) == farther;
-      sums[static_cast<std::size_t>(lane)] += takes_b ? square_b[i] : square_a[i];
+      sums[static_cast<std::size_t>(lane)] += depth_a[i] > depth_b[i] ? square_a[i] : square_b[i];
     }
   }
   float sum = 0.0F;
   for (const float part : sums) sum += part;
   return sum;
+}
+
+GEOMAP_MULTIVERSION float sum_of(const float* __restrict square, int size) {
+  std::array<float, kLanes> sums{};
+  for (int block = 0; block < size; block += kLanes) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      sums[static_cast<std::size_t>(lane)] += square[block + lane];
+    }
+  }
+  float sum = 0.0F;
+  for (const float part : sums) sum += part;
+  return sum;
+}
+
+// For each lane how many planes its reading is on, and the one it is least off; -1 for none.
+GEOMAP_MULTIVERSION void take_better(const float* __restrict square, float handicap, int plane,
+                                     float* __restrict best, int* __restrict which,
+                                     int* __restrict on) {
+  for (int i = 0; i < kLanes; ++i) {
+    const bool is_on = square[i] < 1.0F;
+    const float scored = is_on ? square[i] * handicap : 1e9F;
+    const bool is_better = scored < best[i];
+    on[i] += static_cast<int>(is_on);
+    best[i] = is_better ? scored : best[i];
+    which[i] = is_better ? plane : which[i];
+  }
+}
+
+// label[c] where the five around it are the same, else kMixed.
+constexpr std::int16_t kMixed = -2;
+GEOMAP_MULTIVERSION void same_in_five(const std::int16_t* __restrict a,
+                                      const std::int16_t* __restrict b,
+                                      const std::int16_t* __restrict c,
+                                      const std::int16_t* __restrict d,
+                                      const std::int16_t* __restrict e, int size,
+                                      std::int16_t* __restrict same) {
+  for (int i = 0; i < size; ++i) {
+    const bool all = (a[i] == c[i]) & (b[i] == c[i]) & (d[i] == c[i]) & (e[i] == c[i]);
+    same[i] = all ? c[i] : kMixed;
+  }
+}
+
+// Per cell its label where all around, within the reach, have the same; else kMixed.
+std::vector<std::int16_t> inner_cells(const DepthCells& cells,
+                                      const std::vector<std::int16_t>& label) {
+  static_assert(kReach == 2);
+  const int columns = cells.columns(), rows = cells.rows();
+  std::vector<std::int16_t> across(label.size()), inner(label.size());
+  std::vector<std::int16_t> padded(static_cast<std::size_t>(columns + 2 * kReach));
+  const auto row_of = [columns](std::vector<std::int16_t>& image, int r) {
+    return image.data() + static_cast<std::ptrdiff_t>(r) * columns;
+  };
+  for (int r = 0; r < rows; ++r) {
+    const std::int16_t* line = label.data() + static_cast<std::ptrdiff_t>(r) * columns;
+    std::fill_n(padded.begin(), kReach, line[0]);
+    std::copy_n(line, columns, padded.begin() + kReach);
+    std::fill_n(padded.end() - kReach, kReach, line[columns - 1]);
+    const std::int16_t* p = padded.data();
+    same_in_five(p, p + 1, p + 2, p + 3, p + 4, columns, row_of(across, r));
+  }
+  for (int r = 0; r < rows; ++r) {
+    const auto at = [&](int step) { return row_of(across, std::clamp(r + step, 0, rows - 1)); };
+    same_in_five(at(-2), at(-1), at(0), at(1), at(2), columns, row_of(inner, r));
+  }
+  return inner;
 }
 
 // Labels a row of pixels that one plane has to itself. `first` is the number of the first pixel.
@@ -113,11 +179,14 @@ struct PixelLabeler::Readings {
               plane.b, plane.c, candidates.uneven[at], square[at].data(), predicted[at].data());
     }
   }
-  // If of two planes the farther or the nearer one is what is seen.
-  float cost(int a, int b, bool farther) const {
+  float cost(int plane) const {
+    return sum_of(square[static_cast<std::size_t>(plane)].data(), lanes);
+  }
+  // If of two planes the nearer one is what is seen.
+  float cost_of_nearer_of(int a, int b) const {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-    return cost_of(square[i].data(), square[j].data(), predicted[i].data(), predicted[j].data(),
-                   lanes, farther);
+    return cost_of_nearer(square[i].data(), square[j].data(), predicted[i].data(),
+                          predicted[j].data(), lanes);
   }
 };
 
@@ -161,14 +230,14 @@ std::vector<std::int16_t> PixelLabeler::label(const std::vector<geometry::Plane>
   in_images.reserve(planes.size());
   for (const geometry::Plane& plane : planes) in_images.push_back(in_image(plane));
   std::vector<std::int16_t> labels(frame_.depth.millimetres.size(), kNoPlane);
+  const std::vector<std::int16_t> inner = inner_cells(cells_, cell_label);
   for (int row = 0; row < cells_.rows(); ++row) {
+    const std::int16_t* inner_row = inner.data() + cells_.index(0, row);
     for (int column = 0; column < cells_.columns(); ++column) {
-      const std::int16_t own = cell_label[static_cast<std::size_t>(cells_.index(column, row))];
+      const std::int16_t own = inner_row[column];
+      if (own == kNoPlane) continue;  // nothing near
       const int first = column;
-      while (column < cells_.columns() && is_inner(column, row, cell_label) &&
-             cell_label[static_cast<std::size_t>(cells_.index(column, row))] == own) {
-        ++column;
-      }
+      while (own != kMixed && column < cells_.columns() && inner_row[column] == own) ++column;
       if (column > first) {
         label_inner(first, column, row, in_images[static_cast<std::size_t>(own)], own, labels);
         --column;
@@ -180,21 +249,6 @@ std::vector<std::int16_t> PixelLabeler::label(const std::vector<geometry::Plane>
     }
   }
   return labels;
-}
-
-// One plane has all around.
-bool PixelLabeler::is_inner(int column, int row,
-                            const std::vector<std::int16_t>& cell_label) const {
-  const std::int16_t own = cell_label[static_cast<std::size_t>(cells_.index(column, row))];
-  if (own == kNoPlane) return false;
-  const int c0 = std::max(0, column - kReach), c1 = std::min(cells_.columns(), column + kReach + 1);
-  for (int r = std::max(0, row - kReach); r <= std::min(cells_.rows() - 1, row + kReach); ++r) {
-    const std::int16_t* line = cell_label.data() + cells_.index(0, r);
-    for (int c = c0; c < c1; ++c) {
-      if (line[c] != own) return false;
-    }
-  }
-  return true;
 }
 
 void PixelLabeler::label_inner(int first, int last, int row, const ImagePlane& plane,
@@ -286,25 +340,30 @@ void PixelLabeler::label_cell(int column, int row, const Candidates& candidates,
                               std::vector<std::int16_t>& labels) const {
   Readings own = read(column * kSide, row * kSide, (column + 1) * kSide, (row + 1) * kSide, 1);
   own.compare_with(candidates);
+  alignas(64) std::array<float, kLanes> best;
+  alignas(64) std::array<int, kLanes> which, on{};
+  best.fill(1e8F);
+  which.fill(-1);
+  for (int k = 0; k < candidates.count; ++k) {
+    const float handicap = k == candidates.own ? kOwnAdvantage * kOwnAdvantage : 1.0F;
+    take_better(own.square[static_cast<std::size_t>(k)].data(), handicap, k, best.data(),
+                which.data(), on.data());
+  }
   bool is_clear = true;  // one plane has all
   for (int i = 0; i < own.size; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    float best = 1e9F;
-    std::int16_t label = kNoPlane;
-    for (int k = 0; k < candidates.count; ++k) {
-      const float off = own.square[static_cast<std::size_t>(k)][at];
-      if (off >= 1.0F) continue;
-      is_clear &= label == kNoPlane;
-      const float scored = off * (k == candidates.own ? kOwnAdvantage * kOwnAdvantage : 1.0F);
-      if (scored >= best) continue;
-      best = scored;
-      label = candidates.label[static_cast<std::size_t>(k)];
-    }
-    labels[static_cast<std::size_t>(own.v[at]) * static_cast<std::size_t>(frame_.depth.width) +
-           static_cast<std::size_t>(own.u[at])] = label;
-    is_clear &= label != kNoPlane;
+    is_clear &= on[at] == 1;
+    if (which[at] < 0) continue;
+    label_at(own, at, labels) = candidates.label[static_cast<std::size_t>(which[at])];
   }
   if (!is_clear) settle_cell(column, row, candidates, own, labels);
+}
+
+std::int16_t& PixelLabeler::label_at(const Readings& readings, std::size_t i,
+                                     std::vector<std::int16_t>& labels) const {
+  return labels[static_cast<std::size_t>(readings.v[i]) *
+                    static_cast<std::size_t>(frame_.depth.width) +
+                static_cast<std::size_t>(readings.u[i])];
 }
 
 // Where several planes are possible, as beside the line in which two of them meet, a single reading
@@ -322,8 +381,7 @@ void PixelLabeler::settle_cell(int column, int row, const Candidates& candidates
   float least = kNoneCost * size;
   std::array<float, kMostCandidates> cost_alone{};
   for (int i = 0; i < candidates.count; ++i) {
-    float& alone = cost_alone[static_cast<std::size_t>(i)];
-    alone = around.cost(i, i, false);
+    const float alone = cost_alone[static_cast<std::size_t>(i)] = around.cost(i);
     const float scored = alone * (i == candidates.own ? kOwnEdge : 1.0F);
     if (scored >= least) continue;
     least = scored;
@@ -331,12 +389,12 @@ void PixelLabeler::settle_cell(int column, int row, const Candidates& candidates
   }
   for (int i = 0; i < candidates.count; ++i) {
     for (int j = 0; j < i; ++j) {
-      // Beside what they explain alone nothing is left to gain.
-      const float gain = 2.0F * size - cost_alone[static_cast<std::size_t>(i)] -
-                         cost_alone[static_cast<std::size_t>(j)];
-      if (size - gain + kEdgeCost >= least) continue;
+      const float both =
+          cost_alone[static_cast<std::size_t>(i)] + cost_alone[static_cast<std::size_t>(j)];
+      if (both - size + kEdgeCost >= least) continue;  // no edge between them could do better
+      const float nearer = around.cost_of_nearer_of(i, j);
       for (const bool is_convex : {false, true}) {
-        const float cost = around.cost(i, j, is_convex) + kEdgeCost;
+        const float cost = (is_convex ? both - nearer : nearer) + kEdgeCost;
         if (cost >= least) continue;
         least = cost;
         first = i;
@@ -347,9 +405,7 @@ void PixelLabeler::settle_cell(int column, int row, const Candidates& candidates
   }
   for (int i = 0; i < own.size; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    std::int16_t& label =
-        labels[static_cast<std::size_t>(own.v[at]) * static_cast<std::size_t>(frame_.depth.width) +
-               static_cast<std::size_t>(own.u[at])];
+    std::int16_t& label = label_at(own, at, labels);
     label = kNoPlane;
     if (first < 0) continue;
     const bool first_is_nearer = own.predicted[static_cast<std::size_t>(first)][at] >

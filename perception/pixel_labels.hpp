@@ -34,13 +34,14 @@ class PixelLabeler {
   struct Candidates;
   struct Readings;
   ImagePlane in_image(const geometry::Plane& plane) const;
-  bool is_inner(int column, int row, const std::vector<std::int16_t>& cell_label) const;
   void label_inner(int first, int last, int row, const ImagePlane& plane, std::int16_t label,
                    std::vector<std::int16_t>& labels) const;
   Candidates candidates_at(int column, int row, const std::vector<ImagePlane>& planes,
                            const std::vector<std::int16_t>& cell_label) const;
   bool agrees(const ImagePlane& plane, std::size_t cell) const;
   Readings read(int u_first, int v_first, int u_last, int v_last, int step) const;
+  std::int16_t& label_at(const Readings& readings, std::size_t i,
+                         std::vector<std::int16_t>& labels) const;
   void label_cell(int column, int row, const Candidates& candidates,
                   std::vector<std::int16_t>& labels) const;
   void settle_cell(int column, int row, const Candidates& candidates, Readings& own,

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 
 #include "perception/plane_extractor.hpp"
 
@@ -146,9 +148,33 @@ class PartSummer {
   Vector6 second_, noise_sums_;
 };
 
+// The label that all pixels of a cell have, or kNoPlane where they differ.
+std::int16_t common_label(const std::int16_t* first, int width) {
+  static_assert(kSide == 4);
+  std::array<std::uint64_t, kSide> rows;
+  for (std::size_t j = 0; j < kSide; ++j) {
+    std::memcpy(&rows[j], first + static_cast<std::ptrdiff_t>(j) * width, sizeof rows[j]);
+  }
+  const bool is_common = rows[0] == std::rotl(rows[0], 16) && rows[1] == rows[0] &&
+                         rows[2] == rows[0] && rows[3] == rows[0];
+  return is_common ? *first : kNoPlane;
+}
+
 // Adds the pixels of one cell to the planes they are on.
 void collect_cell(const geometry::DepthImage& depth, int column, int row, double readings, int cell,
                   PlanePixels& pixels) {
+  if ((column + 1) * kSide <= depth.width && (row + 1) * kSide <= depth.height) {
+    const std::int16_t common =
+        common_label(pixels.label.data() + static_cast<std::ptrdiff_t>(row * kSide) * depth.width +
+                         column * kSide,
+                     depth.width);
+    if (common != kNoPlane) {
+      const Eigen::Vector2i corner(column * kSide, row * kSide);
+      pixels.cells[static_cast<std::size_t>(common)].push_back(
+          {cell, kSide * kSide, true, {corner, corner + Eigen::Vector2i::Constant(kSide - 1)}});
+      return;
+    }
+  }
   std::array<PlaneCell*, kSide * kSide> known{};
   std::array<std::int16_t, kSide * kSide> plane{};
   std::size_t count = 0;
