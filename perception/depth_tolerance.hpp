@@ -21,12 +21,15 @@ struct DepthTolerance {
   /// @brief Noise that is the same at every depth: a simulator's, and known well.
   bool is_white() const { return !(noise.slope > 0.0); }
 
-  double systematic_along_ray(double z) const {
+  /// @brief 1 for a camera's noise, 0 for a simulator's.
+  double camera_share() const {
     // From a rendering's rounded depth to what cameras with smoothed depth come down to [factor].
     constexpr double kRendered = 0.1, kCamera = 0.3;
-    const double share = std::clamp((noise.factor - kRendered) / (kCamera - kRendered), 0.0, 1.0);
-    return is_white() ? 0.0 : share * systematic * z;
+    return is_white() ? 0.0
+                      : std::clamp((noise.factor - kRendered) / (kCamera - kRendered), 0.0, 1.0);
   }
+
+  double systematic_along_ray(double z) const { return camera_share() * systematic * z; }
 
   double along_ray(double z) const { return gate * noise.sigma(z) + systematic_along_ray(z); }
 };

@@ -24,6 +24,15 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// A camera's noise is alike in neighbouring pixels and comes in steps: the normals of single cells,
+// not averaged over voxels, scatter by so much more of the allowed angle.
+constexpr double kNormalScatter = 0.4;
+constexpr double kMergeScatter = 0.25;
+
+double scattered(double degrees, double more, const DepthTolerance& tolerance) {
+  return radians(degrees) * (1.0 + more * tolerance.camera_share());
+}
+
 // Outlines of the surfaces, and what is still worth reporting with them.
 std::vector<FoundPart> outline(const OrganizedExtractorConfig& config,
                                const geometry::RgbdFrame& frame, std::vector<FoundPart> found,
@@ -70,10 +79,12 @@ ExtractedPlanes OrganizedExtractor::extract(const geometry::RgbdFrame& frame, st
   const Clock::time_point start = Clock::now();
   const DepthCells cells(frame.depth, frame.depth_camera, config_.min_depth, config_.max_depth);
   const DepthTolerance tolerance = config_.tolerance_of(cells);
-  const double max_normal_angle = radians(config_.max_normal_angle_deg);
+  const double max_normal_angle =
+      scattered(config_.max_normal_angle_deg, kNormalScatter, tolerance);
   const auto normals = estimate_normals(cells, frame.depth_camera, tolerance);
-  const CellRegions regions = grow_regions(cells, normals, tolerance, max_normal_angle,
-                                           radians(config_.max_merge_angle_deg));
+  const CellRegions regions =
+      grow_regions(cells, normals, tolerance, max_normal_angle,
+                   scattered(config_.max_merge_angle_deg, kMergeScatter, tolerance));
   const PixelLabeler labeler(frame, cells, normals, tolerance, config_.min_depth, config_.max_depth,
                              max_normal_angle);
   const PlanePixels pixels = collect_pixels(
