@@ -76,8 +76,7 @@ SurfaceImage::SurfaceImage(const geometry::RgbdFrame& frame, double min_depth, d
       depth.millimetres.size() != count) {
     throw std::invalid_argument("surface image: depth image and camera disagree");
   }
-  if (count == 0) return;
-  pixels_.resize(count);
+  pixels_.resize(count + 1);
   const PaddedInverseDepth inverse(depth, min_depth, max_depth);
   RowBuffers buffers(camera_);
   const SurfaceRow row = buffers.surfaces();

@@ -12,9 +12,9 @@
 
 #include "geometry/frustum.hpp"
 #include "geometry/rgbd_frame.hpp"
-#include "perception/frustum_icp.hpp"
 #include "perception/map_voxel.hpp"
 #include "perception/surface_image.hpp"
+#include "perception/surfel.hpp"
 
 namespace geomap::perception {
 
