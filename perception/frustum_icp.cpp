@@ -22,7 +22,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 constexpr std::size_t kCoarseStride = 4;
 constexpr int kLeastPartners = 30;
 constexpr double kConvergedTranslation = 1e-3, kConvergedAngle = 1e-3;  // [m], [rad]
-constexpr double kDone = 2e-4;                                          // [m], [rad]
+constexpr double kNearlyDone = 1e-3, kDone = 2e-4;                      // [m], [rad]
 constexpr double kLeastDamping = 1e-6;                                  // share of the weight
 constexpr int kRounds = 4;
 constexpr double kBorder = 4.0;       // around the view, within which surfels are kept [pixel]
@@ -46,18 +46,20 @@ class Aligner {
     if (!approach(result)) return result;
     // What the fine steps cannot bring into the view costs them nothing.
     surfels_.keep_in_view(view_.camera(), T_, kBorder);
+    coarse_.keep_in_view(view_.camera(), T_, kBorder);
     // Which directions are observed, and the noise of the normals, show only once the view is
     // aligned. Where the set was wrong, the pose was: once more with the right one.
+    IcpSums sums = sum(config_.gate, surfels_);
     for (int round = 0; round < kRounds; ++round) {
       const int before = observed_;
-      const IcpSums sums = sum(config_.gate, surfels_);
       if (sums.partners < kLeastPartners) return result;
       find_observed(sums,
                     config_.noise_factor * normal_variance(surfels_.squared_normal_differences()));
       if (observed_ == before) break;
       if (!refine(result)) return result;
+      sums = sum(config_.gate, surfels_);
     }
-    judge(result);
+    judge(sums, result);
     return result;
   }
 
@@ -79,13 +81,20 @@ class Aligner {
     return true;
   }
 
-  // Within the observed directions, from what the steps before have found in these.
+  // Within the observed directions, from what the steps before have found in these: with every
+  // fourth surfel until the steps are small, then with all.
   bool refine(Alignment& result) {
     keep_observed();
+    bool with_all = false;
     for (int i = config_.coarse_iterations; i < config_.max_iterations; ++i) {
       const double gate = std::max(config_.gate, std::ldexp(config_.coarse_gate, -i));
-      if (!advance(sum(gate, surfels_), 0.0, hold_sigma_ > 0.0, result)) return false;
-      if (gate == config_.gate && last_step_ < kDone && last_angle_ < kDone) break;
+      const IcpSums sums = with_all ? sum(gate, surfels_) : sum(gate, coarse_);
+      hold_weight_ = with_all ? kCorrelation : kCorrelation / kCoarseStride;
+      if (!advance(sums, 0.0, hold_sigma_ > 0.0, result)) return false;
+      const double small = with_all ? kDone : kNearlyDone;
+      if (gate > config_.gate || last_step_ >= small || last_angle_ >= small) continue;
+      if (with_all) break;
+      with_all = true;
     }
     return true;
   }
@@ -161,7 +170,7 @@ class Aligner {
     const double variance = hold_sigma_ * hold_sigma_;
     const Eigen::VectorXd from_start = directions_.leftCols(observed_).transpose() * corrected();
     for (Eigen::Index i = 0; i < from_start.size(); ++i) {
-      const double weight = kCorrelation / (variance + from_start(i) * from_start(i));
+      const double weight = hold_weight_ / (variance + from_start(i) * from_start(i));
       information(i, i) += weight;
       vector(i) -= weight * from_start(i);
     }
@@ -199,9 +208,8 @@ class Aligner {
     return (turn * Eigen::Quaterniond(T.linear())).normalized().toRotationMatrix();
   }
 
-  // Once more at the final pose: how good is it?
-  void judge(Alignment& result) {
-    const IcpSums sums = sum(config_.gate, surfels_);
+  // How good is the final pose? @param sums at it.
+  void judge(const IcpSums& sums, Alignment& result) const {
     result.T_world_camera = T_;
     result.partners = sums.partners;
     if (sums.partners == 0) return;
@@ -219,6 +227,7 @@ class Aligner {
   const SurfaceImage& view_;
   const FrustumIcpConfig& config_;
   double hold_sigma_;
+  double hold_weight_ = kCorrelation;
   double least_cosine_;
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();  // the prior, orthonormal
   Eigen::Isometry3d T_ = Eigen::Isometry3d::Identity();      // T_world_camera

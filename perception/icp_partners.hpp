@@ -33,7 +33,8 @@ class IcpPartners {
 
   /// @brief Pixels of the last match's partners, row by row.
   std::vector<int> pixels() const;
-  /// @brief Squared differences of the normals of the last match's partners.
+  /// @brief Squared differences of the normals of the last match's partners, of every fourth
+  /// surfel.
   std::vector<double> squared_normal_differences() const;
 
  private:
