@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "perception/rigid_transform.hpp"
 
@@ -81,6 +82,26 @@ MapPoint to_point(const MapVoxel& voxel, const Eigen::Vector3d& center, double m
         static_cast<std::uint8_t>((voxel.color[c] + voxel.colored / 2) / voxel.colored);
   }
   return point;
+}
+
+// Lowest and highest block of a column of blocks (index.x, index.y) that may lie inside a frustum,
+// perhaps one too many at either end. Blocks in between are looked up, the others are not.
+std::pair<int, int> levels_inside(const geometry::Frustum& frustum, const BlockIndex& column,
+                                  double side) {
+  double lowest = -1e9, highest = 1e9;  // [side]
+  for (const geometry::Plane& plane : frustum.planes()) {
+    const Eigen::Vector3d& n = plane.normal;
+    // Of the column's boxes, the edge that is farthest along the inward normal.
+    const double x = side * (column.x + (n.x() >= 0.0 ? 1 : 0));
+    const double y = side * (column.y + (n.y() >= 0.0 ? 1 : 0));
+    const double beneath = n.x() * x + n.y() * y + plane.d;  // plus n.z z: inside if not negative
+    if (std::abs(n.z()) < 1e-9) continue;
+    const double level = -beneath / (n.z() * side);
+    if (n.z() > 0.0) lowest = std::max(lowest, level - 1.0);
+    if (n.z() < 0.0) highest = std::min(highest, level);
+  }
+  return {static_cast<int>(std::floor(std::clamp(lowest, -1e9, 1e9))),
+          static_cast<int>(std::floor(std::clamp(highest, -1e9, 1e9)))};
 }
 
 }  // namespace
@@ -200,7 +221,9 @@ SurfelSelection VoxelMap::surfels_in(const geometry::Frustum& frustum) const {
   BlockIndex index;
   for (index.x = first.x(); index.x <= last.x(); ++index.x) {
     for (index.y = first.y(); index.y <= last.y(); ++index.y) {
-      for (index.z = first.z(); index.z <= last.z(); ++index.z) {
+      const auto [lowest, highest] = levels_inside(frustum, index, side);
+      index.z = std::max(first.z(), lowest);
+      for (const int end = std::min(last.z(), highest); index.z <= end; ++index.z) {
         ++selection.blocks_visited;
         const auto found = blocks_.find(index);
         if (found == blocks_.end() || !frustum.may_intersect(block_box(index))) continue;
@@ -214,16 +237,15 @@ SurfelSelection VoxelMap::surfels_in(const geometry::Frustum& frustum) const {
 
 void VoxelMap::append_surfels(const BlockIndex& index, const MapBlock& block,
                               std::vector<Surfel>& surfels) const {
-  for (int number = 0; number < MapBlock::kVoxels; ++number) {
-    const MapVoxel* voxel = block.find(number);
-    if (voxel == nullptr) continue;
-    const Eigen::Vector3d normal(voxel->normal[0], voxel->normal[1], voxel->normal[2]);
-    const double length = normal.norm();
-    if (length < kLeastAgreement * MapVoxel::kNormalUnit * voxel->count) continue;
-    const Eigen::Vector3d mean =
-        first_moment(*voxel).array() / voxel->count + 0.5;  // as to_point()
-    surfels.push_back({voxel_center(index, number) + mean / fine_per_metre_, normal / length});
-  }
+  constexpr double kLeastLength = kLeastAgreement * MapVoxel::kNormalUnit;
+  block.for_each([&](int number, const MapVoxel& voxel) {
+    const Eigen::Vector3d normal(voxel.normal[0], voxel.normal[1], voxel.normal[2]);
+    const double n = voxel.count, squared = normal.squaredNorm();
+    if (squared < kLeastLength * kLeastLength * n * n) return;
+    const Eigen::Vector3d mean = first_moment(voxel).array() / n + 0.5;  // as to_point()
+    surfels.push_back(
+        {voxel_center(index, number) + mean / fine_per_metre_, normal / std::sqrt(squared)});
+  });
 }
 
 Eigen::Vector3d VoxelMap::voxel_center(const BlockIndex& index, int number) const {
@@ -239,10 +261,8 @@ MapPoint VoxelMap::point_of(const BlockIndex& index, int number, const MapVoxel&
 
 void VoxelMap::append_points(const BlockIndex& index, const MapBlock& block,
                              std::vector<MapPoint>& points) const {
-  for (int number = 0; number < MapBlock::kVoxels; ++number) {
-    const MapVoxel* voxel = block.find(number);
-    if (voxel != nullptr) points.push_back(point_of(index, number, *voxel));
-  }
+  block.for_each(
+      [&](int number, const MapVoxel& voxel) { points.push_back(point_of(index, number, voxel)); });
 }
 
 std::optional<MapPoint> VoxelMap::at(const Eigen::Vector3d& p_world) const {
