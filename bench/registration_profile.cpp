@@ -16,10 +16,24 @@ namespace {
 
 using namespace perception;
 
-enum Stage { kThinning, kCorrecting, kSurfaces, kSelection, kAlignment, kInsertion, kLearning };
-constexpr std::array kStageNames = {
-    "thinning",  "applying the depth correction", "surfaces", "selection", "alignment",
-    "insertion", "learning the depth correction"};
+enum Stage {
+  kThinning,
+  kCorrecting,
+  kSurfaces,
+  kSelection,
+  kAlignment,
+  kInsertion,
+  kLearning,
+  kRefreshing
+};
+constexpr std::array kStageNames = {"thinning",
+                                    "applying the depth correction",
+                                    "surfaces",
+                                    "selection",
+                                    "alignment",
+                                    "insertion",
+                                    "learning the depth correction",
+                                    "refreshing old key frames"};
 
 // The tracker's way with a key frame, step by step, its recorded pose as the prior.
 class ProfiledMapping {
@@ -38,19 +52,22 @@ class ProfiledMapping {
     stage[kInsertion] = milliseconds([&] {
       SurfaceImage surfaces = view.surfaces;
       map_.insert(frame.utime, std::move(view), T);
-      kept_.push_front({frame.utime, T, std::move(surfaces)});
+      kept_.push_front({T, std::move(surfaces), map_.depth_correction()});
     });
     if (kept_.size() > 5) kept_.pop_back();
     selector_.accept(T);
     ++keyframes_;
     stage[kLearning] = milliseconds([&] { learn(); });
+    stage[kRefreshing] = milliseconds([&] {
+      refreshed_ += map_.refresh(static_cast<std::size_t>(config_.depth_correction.refresh_count),
+                                 config_.depth_correction.refresh_change);
+    });
     double sum = 0.0;
     for (std::size_t i = 0; i < stage.size(); ++i) {
       times_[i].push_back(stage[i]);
       sum += stage[i];
     }
     total_.push_back(sum);
-    rebuild();
   }
 
   void print() const {
@@ -60,19 +77,19 @@ class ProfiledMapping {
     }
     std::printf("  %-32s %6.3f %6.3f\n", "all of these", median(total_), quantile(total_, 0.95));
     double sum = 0.0;
-    for (const double time : rebuilds_) sum += time;
-    std::printf(
-        "  %zu rebuilds with a better depth correction: %.1f ms each, %.2f ms a key frame\n",
-        rebuilds_.size(), median(rebuilds_), sum / static_cast<double>(keyframes_));
+    for (const double time : total_) sum += time;
+    std::printf("  mean %.3f; %zu better depth corrections, %zu key frames refreshed\n",
+                sum / static_cast<double>(keyframes_), corrections_, refreshed_);
     std::printf("  %zu key frames; %.0f blocks visited, %.0f surfels, %.0f iterations (medians)\n",
                 keyframes_, median(blocks_), median(surfels_), median(iterations_));
   }
 
  private:
   struct Kept {
-    std::int64_t id;
     Eigen::Isometry3d T_world_camera;
     SurfaceImage surfaces;
+    DepthCorrection correction;
+    DepthCorrectionEstimator::View view() const { return {surfaces, T_world_camera, correction}; }
   };
   using Times = std::array<double, kStageNames.size()>;
 
@@ -106,28 +123,21 @@ class ProfiledMapping {
     return found.T_world_camera;
   }
 
-  // As Tracker::improve_depth_correction(), but for the rebuild.
+  // As Tracker::improve_depth_correction().
   void learn() {
     for (const std::size_t before : {1U, 2U, 4U}) {
       if (before >= kept_.size()) break;
-      estimator_.add(kept_[0].surfaces, kept_[0].T_world_camera, kept_[before].surfaces,
-                     kept_[before].T_world_camera, map_.depth_correction());
+      estimator_.add(kept_[0].view(), kept_[before].view());
     }
-    if (keyframes_ < 3) return;
-    estimate_ = estimator_.estimate();
-    change_ = DepthCorrection::largest_difference(estimate_, map_.depth_correction(),
-                                                  kept_[0].surfaces.camera());
-  }
-
-  void rebuild() {
-    if (!config_.depth_correction.enabled || change_ < config_.depth_correction.least_change) {
+    if (keyframes_ < 3 || !config_.depth_correction.enabled) return;
+    const DepthCorrection estimate = estimator_.estimate();
+    if (DepthCorrection::largest_difference(estimate, map_.depth_correction(),
+                                            kept_[0].surfaces.camera()) <
+        config_.depth_correction.least_change) {
       return;
     }
-    rebuilds_.push_back(milliseconds([&] {
-      map_.set_depth_correction(estimate_);
-      for (Kept& kept : kept_) kept.surfaces = map_.view_of(kept.id)->surfaces;
-    }));
-    change_ = 0.0;
+    map_.set_depth_correction(estimate);
+    ++corrections_;
   }
 
   TrackerConfig config_;
@@ -136,10 +146,9 @@ class ProfiledMapping {
   KeyframeSelector selector_;
   std::deque<Kept> kept_;  // newest first
   std::size_t keyframes_ = 0;
-  DepthCorrection estimate_;
-  double change_ = 0.0;
+  std::size_t corrections_ = 0, refreshed_ = 0;
   std::array<std::vector<double>, kStageNames.size()> times_;
-  std::vector<double> total_, rebuilds_, blocks_, surfels_, iterations_;
+  std::vector<double> total_, blocks_, surfels_, iterations_;
 };
 
 }  // namespace

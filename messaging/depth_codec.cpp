@@ -1,11 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "messaging/depth_codec.hpp"
 
+#include <libdeflate.h>
 #include <zlib.h>
 
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <new>
 #include <stdexcept>
 
 namespace geomap::messaging {
+namespace {
+
+// In place; nothing to do where the machine is little-endian itself.
+void from_little_endian(std::span<std::uint16_t> values) {
+  if constexpr (std::endian::native == std::endian::little) return;
+  for (std::uint16_t& value : values) value = static_cast<std::uint16_t>(value << 8 | value >> 8);
+}
+
+// Deflate shrinks at most 1032 to 1, so a short stream cannot ask for much memory.
+bool may_inflate(std::span<const std::uint8_t> stream, std::size_t size) {
+  constexpr std::size_t kLargestRatio = 1032;
+  return size / kLargestRatio <= stream.size();
+}
+
+// @return false for a stream that is damaged, or inflates to another size.
+bool inflate_into(std::span<const std::uint8_t> stream, std::span<std::uint8_t> bytes) {
+  // libdeflate, which knows only streams that are whole, takes a third of zlib's time for them.
+  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> codec(
+      libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
+  if (!codec) throw std::bad_alloc();
+  std::uint8_t nothing = 0;  // libdeflate wants an address even for no bytes
+  std::size_t consumed = 0, inflated = 0;
+  const libdeflate_result result = libdeflate_zlib_decompress_ex(
+      codec.get(), stream.data(), stream.size(), bytes.empty() ? &nothing : bytes.data(),
+      bytes.size(), &consumed, &inflated);
+  return result == LIBDEFLATE_SUCCESS && inflated == bytes.size() && consumed == stream.size();
+}
+
+}  // namespace
 
 std::vector<std::uint8_t> deflate_bytes(std::span<const std::uint8_t> bytes, int level) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
@@ -20,14 +54,9 @@ std::vector<std::uint8_t> deflate_bytes(std::span<const std::uint8_t> bytes, int
 
 std::optional<std::vector<std::uint8_t>> inflate_bytes(std::span<const std::uint8_t> stream,
                                                        std::size_t size) {
-  // zlib shrinks at most 1032 to 1, so a short stream cannot ask for much memory.
-  constexpr std::size_t kLargestRatio = 1032;
-  if (size / kLargestRatio > stream.size()) return std::nullopt;
+  if (!may_inflate(stream, size)) return std::nullopt;
   std::vector<std::uint8_t> bytes(size);
-  uLongf inflated = static_cast<uLongf>(size);
-  uLong consumed = static_cast<uLong>(stream.size());
-  const int status = uncompress2(bytes.data(), &inflated, stream.data(), &consumed);
-  if (status != Z_OK || inflated != size || consumed != stream.size()) return std::nullopt;
+  if (!inflate_into(stream, bytes)) return std::nullopt;
   return bytes;
 }
 
@@ -40,6 +69,18 @@ std::vector<std::uint8_t> compress_depth(std::span<const std::uint16_t> millimet
   return deflate_bytes(bytes, level);
 }
 
+std::optional<std::vector<std::uint16_t>> decompress_depth(std::span<const std::uint8_t> stream,
+                                                           std::size_t count) {
+  if (!may_inflate(stream, 2 * count)) return std::nullopt;
+  std::vector<std::uint16_t> millimetres(count);
+  const auto bytes = std::as_writable_bytes(std::span(millimetres));
+  if (!inflate_into(stream, {reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size()})) {
+    return std::nullopt;
+  }
+  from_little_endian(millimetres);
+  return millimetres;
+}
+
 std::optional<std::vector<std::uint16_t>> unpack_depth(std::span<const std::uint8_t> rows,
                                                        int width, int height,
                                                        std::size_t row_stride) {
@@ -49,14 +90,11 @@ std::optional<std::vector<std::uint16_t>> unpack_depth(std::span<const std::uint
   if (row_stride < 2 * columns || rows.size() % lines != 0 || rows.size() / lines != row_stride) {
     return std::nullopt;
   }
-  std::vector<std::uint16_t> millimetres;
-  millimetres.reserve(columns * lines);
+  std::vector<std::uint16_t> millimetres(columns * lines);
   for (std::size_t v = 0; v < lines; ++v) {
-    const std::uint8_t* row = rows.data() + v * row_stride;
-    for (std::size_t u = 0; u < columns; ++u) {
-      millimetres.push_back(static_cast<std::uint16_t>(row[2 * u] | (row[2 * u + 1] << 8)));
-    }
+    std::memcpy(millimetres.data() + v * columns, rows.data() + v * row_stride, 2 * columns);
   }
+  from_little_endian(millimetres);
   return millimetres;
 }
 

@@ -21,6 +21,10 @@ std::optional<std::vector<std::uint8_t>> inflate_bytes(std::span<const std::uint
 /// @brief Depth values [mm] as little-endian bytes, deflated.
 std::vector<std::uint8_t> compress_depth(std::span<const std::uint16_t> millimetres, int level = 1);
 
+/// @brief The inverse, for a stream of exactly `count` values; nothing as inflate_bytes().
+std::optional<std::vector<std::uint16_t>> decompress_depth(std::span<const std::uint8_t> stream,
+                                                           std::size_t count);
+
 /// @brief width · height depth values from little-endian rows of `row_stride` bytes, whose padding
 /// is dropped; nothing unless `rows` has exactly height · row_stride bytes and a row fits its
 /// stride.

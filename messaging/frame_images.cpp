@@ -45,15 +45,18 @@ DepthResult read_depth(const EncodedImage& encoded) {
   const std::optional<std::size_t> stride = row_size(encoded, 2);
   if (!stride) return {{}, FrameFault::kBadSize};
 
-  std::span<const std::uint8_t> rows = encoded.data;
-  std::optional<std::vector<std::uint8_t>> inflated;
-  if (encoded.compressed) {
-    inflated = inflate_bytes(encoded.data, *stride * static_cast<std::size_t>(encoded.height));
-    if (!inflated) return {{}, FrameFault::kBadDepth};
-    rows = *inflated;
+  const auto height = static_cast<std::size_t>(encoded.height);
+  const std::size_t tight = 2 * static_cast<std::size_t>(encoded.width);
+  std::optional<std::vector<std::uint16_t>> millimetres;
+  if (!encoded.compressed) {
+    millimetres = unpack_depth(encoded.data, encoded.width, encoded.height, *stride);
+    if (!millimetres) return {{}, FrameFault::kBadSize};
+  } else if (*stride == tight) {
+    millimetres = decompress_depth(encoded.data, tight / 2 * height);
+  } else if (const auto rows = inflate_bytes(encoded.data, *stride * height)) {
+    millimetres = unpack_depth(*rows, encoded.width, encoded.height, *stride);
   }
-  auto millimetres = unpack_depth(rows, encoded.width, encoded.height, *stride);
-  if (!millimetres) return {{}, FrameFault::kBadSize};
+  if (!millimetres) return {{}, FrameFault::kBadDepth};
   if (std::none_of(millimetres->begin(), millimetres->end(), geometry::DepthImage::is_reading)) {
     return {{}, FrameFault::kNoReading};
   }

@@ -50,6 +50,8 @@ std::vector<std::string> DepthCorrectionConfig::validate() const {
     errors.push_back("linear_sigma must be above 0, at most 0.1");
   }
   if (!(least_change >= 0.0)) errors.push_back("least_change must not be negative");
+  if (!(refresh_change >= 0.0)) errors.push_back("refresh_change must not be negative");
+  if (refresh_count < 0) errors.push_back("refresh_count must not be negative");
   if (!(correlation >= 1.0)) errors.push_back("correlation must be at least 1");
   return errors;
 }
@@ -60,10 +62,9 @@ DepthCorrectionEstimator::DepthCorrectionEstimator(const DepthCorrectionConfig& 
   if (!errors.empty()) throw std::invalid_argument("depth correction: " + errors.front());
 }
 
-int DepthCorrectionEstimator::add(const SurfaceImage& a, const Eigen::Isometry3d& T_world_a,
-                                  const SurfaceImage& b, const Eigen::Isometry3d& T_world_b,
-                                  const DepthCorrection& applied) {
-  const Eigen::Isometry3d T_b_a = T_world_b.inverse() * T_world_a;
+int DepthCorrectionEstimator::add(const View& view_a, const View& view_b) {
+  const SurfaceImage &a = view_a.surfaces, &b = view_b.surfaces;
+  const Eigen::Isometry3d T_b_a = view_b.T_world_camera.inverse() * view_a.T_world_camera;
   PairSums sums;
   for (int v = 0; v < a.height(); v += kStep) {
     for (int u = 0; u < a.width(); u += kStep) {
@@ -79,12 +80,12 @@ int DepthCorrectionEstimator::add(const SurfaceImage& a, const Eigen::Isometry3d
       // e = n·(p_a + h_a t_a·c - p_b - h_b t_b·c): t the terms, h = n·p.
       const double e = n.dot(p - *on_surface);
       if (std::abs(e) > kGate) continue;
-      const Terms k = n.dot(*on_surface) * terms_at(*on_surface) -
-                      n.dot(T_b_a.linear() * from.point) * terms_at(from.point);
+      const Terms k_b = n.dot(*on_surface) * terms_at(*on_surface);
+      const Terms k_a = n.dot(T_b_a.linear() * from.point) * terms_at(from.point);
       Vector6 j;
       j << n, p.cross(n);
-      sums.add(registration_weight(std::max(p.z(), from.point.z()), e), j, k,
-               e + k.dot(applied.coefficients()));
+      sums.add(registration_weight(std::max(p.z(), from.point.z()), e), j, k_b - k_a,
+               e + k_b.dot(view_b.applied.coefficients()) - k_a.dot(view_a.applied.coefficients()));
     }
   }
   if (sums.count < kLeastMeasurements) return 0;

@@ -14,8 +14,11 @@ struct DepthCorrectionConfig {
   bool enabled = true;
   double sigma = 0.004;         // expected size of the correction at the border, share of the depth
   double linear_sigma = 0.003;  // of its linear terms, which look almost like a turn of the camera
-  double least_change = 0.001;  // below this, a new estimate is not worth rebuilding the map
-  double correlation = 80.0;    // measurements that say no more than one: neighbours err alike
+  double least_change = 0.001;  // below this, a new estimate is not applied
+  // Key frames in the map get a better correction a few at a time, so that no frame waits.
+  double refresh_change = 0.003;  // below this, a key frame is left as it is
+  int refresh_count = 2;          // at most, with each new key frame
+  double correlation = 80.0;      // measurements that say no more than one: neighbours err alike
 
   std::vector<std::string> validate() const;
 
@@ -25,6 +28,8 @@ struct DepthCorrectionConfig {
     visitor("sigma", self.sigma);
     visitor("linear_sigma", self.linear_sigma);
     visitor("least_change", self.least_change);
+    visitor("refresh_change", self.refresh_change);
+    visitor("refresh_count", self.refresh_count);
     visitor("correlation", self.correlation);
   }
 };
@@ -41,10 +46,16 @@ class DepthCorrectionEstimator {
   /// @throws std::invalid_argument when the configuration is not valid.
   explicit DepthCorrectionEstimator(const DepthCorrectionConfig& config = {});
 
-  /// @brief Adds what two views say. Both surfaces must have been made with `applied`.
+  /// @brief A view as it was aligned. `applied`: the correction its surfaces were made with.
+  struct View {
+    const SurfaceImage& surfaces;
+    const Eigen::Isometry3d& T_world_camera;
+    const DepthCorrection& applied;
+  };
+
+  /// @brief Adds what two views say.
   /// @return measurements used: 0 when the views share too little.
-  int add(const SurfaceImage& a, const Eigen::Isometry3d& T_world_a, const SurfaceImage& b,
-          const Eigen::Isometry3d& T_world_b, const DepthCorrection& applied);
+  int add(const View& a, const View& b);
 
   /// @brief The most probable correction.
   DepthCorrection estimate() const;

@@ -7,11 +7,9 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
 
 #include "geometry/angles.hpp"
-#include "perception/icp_sums.hpp"
-#include "perception/registration_weight.hpp"
+#include "perception/icp_partners.hpp"
 #include "perception/rigid_transform.hpp"
 #include "perception/view_overlap.hpp"
 
@@ -24,16 +22,18 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 constexpr std::size_t kCoarseStride = 4;
 constexpr int kLeastPartners = 30;
 constexpr double kConvergedTranslation = 1e-3, kConvergedAngle = 1e-3;  // [m], [rad]
-constexpr double kDone = 2e-4;                                          // [m], [rad]
+constexpr double kNearlyDone = 1e-3, kDone = 2e-4;                      // [m], [rad]
 constexpr double kLeastDamping = 1e-6;                                  // share of the weight
 constexpr int kRounds = 4;
+constexpr double kBorder = 4.0;       // around the view, within which surfels are kept [pixel]
 constexpr double kCorrelation = 8.0;  // surfels that say no more than one
 
 class Aligner {
  public:
-  Aligner(std::vector<Surfel> surfels, const SurfaceImage& view, const FrustumIcpConfig& config,
-          double hold_sigma)
-      : surfels_(std::move(surfels)),
+  Aligner(const std::vector<Surfel>& surfels, const SurfaceImage& view,
+          const FrustumIcpConfig& config, double hold_sigma)
+      : coarse_(surfels, kCoarseStride),
+        surfels_(surfels),
         view_(view),
         config_(config),
         hold_sigma_(hold_sigma),
@@ -44,19 +44,22 @@ class Aligner {
     result.T_world_camera = prior;
     T_ = start_ = orthonormal(prior);
     if (!approach(result)) return result;
-    keep_in_view();
+    // What the fine steps cannot bring into the view costs them nothing.
+    surfels_.keep_in_view(view_.camera(), T_, kBorder);
+    coarse_.keep_in_view(view_.camera(), T_, kBorder);
     // Which directions are observed, and the noise of the normals, show only once the view is
     // aligned. Where the set was wrong, the pose was: once more with the right one.
+    IcpSums sums = sum(config_.gate, surfels_);
     for (int round = 0; round < kRounds; ++round) {
       const int before = observed_;
-      std::vector<double> normals;
-      const IcpSums sums = sum(config_.gate, 1, nullptr, &normals);
       if (sums.partners < kLeastPartners) return result;
-      find_observed(sums, config_.noise_factor * normal_variance(std::move(normals)));
+      find_observed(sums,
+                    config_.noise_factor * normal_variance(surfels_.squared_normal_differences()));
       if (observed_ == before) break;
       if (!refine(result)) return result;
+      sums = sum(config_.gate, surfels_);
     }
-    judge(result);
+    judge(sums, result);
     return result;
   }
 
@@ -69,7 +72,7 @@ class Aligner {
     observed_ = 6;
     for (int i = 0; i < std::min(config_.coarse_iterations, config_.max_iterations); ++i) {
       const double gate = std::max(config_.gate, std::ldexp(config_.coarse_gate, -i));
-      const IcpSums sums = sum(gate, kCoarseStride);
+      const IcpSums sums = sum(gate, coarse_);
       radius_ = sums.radius();
       const double damping = sums.weight * std::max(kLeastDamping, config_.least_information);
       if (!advance(sums, damping, false, result)) return false;
@@ -78,27 +81,20 @@ class Aligner {
     return true;
   }
 
-  // What the fine steps cannot bring into the view costs them nothing.
-  void keep_in_view() {
-    constexpr double kBorder = 4.0;  // [pixel]
-    const geometry::CameraModel& camera = view_.camera();
-    const Eigen::Isometry3d T_camera_world = T_.inverse();
-    std::erase_if(surfels_, [&](const Surfel& surfel) {
-      const Eigen::Vector3d p = T_camera_world * surfel.position;
-      if (!(p.z() > 0.0)) return true;
-      const Eigen::Vector2d pixel = camera.project(p);
-      return !(pixel.x() > -kBorder && pixel.y() > -kBorder && pixel.x() < camera.width + kBorder &&
-               pixel.y() < camera.height + kBorder);
-    });
-  }
-
-  // Within the observed directions, from what the steps before have found in these.
+  // Within the observed directions, from what the steps before have found in these: with every
+  // fourth surfel until the steps are small, then with all.
   bool refine(Alignment& result) {
     keep_observed();
+    bool with_all = false;
     for (int i = config_.coarse_iterations; i < config_.max_iterations; ++i) {
       const double gate = std::max(config_.gate, std::ldexp(config_.coarse_gate, -i));
-      if (!advance(sum(gate, 1), 0.0, hold_sigma_ > 0.0, result)) return false;
-      if (gate == config_.gate && last_step_ < kDone && last_angle_ < kDone) break;
+      const IcpSums sums = with_all ? sum(gate, surfels_) : sum(gate, coarse_);
+      hold_weight_ = with_all ? kCorrelation : kCorrelation / kCoarseStride;
+      if (!advance(sums, 0.0, hold_sigma_ > 0.0, result)) return false;
+      const double small = with_all ? kDone : kNearlyDone;
+      if (gate > config_.gate || last_step_ >= small || last_angle_ >= small) continue;
+      if (with_all) break;
+      with_all = true;
     }
     return true;
   }
@@ -113,33 +109,8 @@ class Aligner {
     return true;
   }
 
-  // @param overlap, normals to be filled, null while only the step matters: what of the view has
-  // partners, and the squared differences of the partners' normals.
-  IcpSums sum(double gate, std::size_t stride, ViewOverlap* overlap = nullptr,
-              std::vector<double>* normals = nullptr) const {
-    const Eigen::Matrix3d R_camera_world = T_.linear().transpose();
-    const Eigen::Vector3d centre = T_.translation();
-    IcpSums sums;
-    for (std::size_t i = 0; i < surfels_.size(); i += stride) {
-      const Surfel& surfel = surfels_[i];
-      const Eigen::Vector3d arm = surfel.position - centre;
-      const Eigen::Vector3d p = R_camera_world * arm;
-      const SurfacePixel* pixel = view_.seen_at(p);
-      if (pixel == nullptr) continue;
-      const auto on_surface = pixel->on_ray_of(p);
-      if (!on_surface) continue;
-      if (p.z() < on_surface->z() - std::max(gate, kSeenThrough * p.z())) ++sums.seen_through;
-      const Eigen::Vector3d n = R_camera_world * surfel.normal;
-      const double cosine = n.dot(pixel->normal);
-      if (cosine < least_cosine_) continue;
-      const double e = n.dot(p - *on_surface);
-      if (std::abs(e) > gate) continue;
-      const double w = registration_weight(p.z(), e);
-      sums.add(w, e, arm, surfel.normal);
-      if (normals != nullptr) normals->push_back(2.0 * (1.0 - cosine));
-      if (overlap != nullptr) overlap->mark(*pixel);
-    }
-    return sums;
+  IcpSums sum(double gate, IcpPartners& surfels) const {
+    return surfels.match(view_, T_, gate, least_cosine_);
   }
 
   // Eigenvalues [1/m²] of the information with rotations as lengths, ascending.
@@ -199,7 +170,7 @@ class Aligner {
     const double variance = hold_sigma_ * hold_sigma_;
     const Eigen::VectorXd from_start = directions_.leftCols(observed_).transpose() * corrected();
     for (Eigen::Index i = 0; i < from_start.size(); ++i) {
-      const double weight = kCorrelation / (variance + from_start(i) * from_start(i));
+      const double weight = hold_weight_ / (variance + from_start(i) * from_start(i));
       information(i, i) += weight;
       vector(i) -= weight * from_start(i);
     }
@@ -237,14 +208,14 @@ class Aligner {
     return (turn * Eigen::Quaterniond(T.linear())).normalized().toRotationMatrix();
   }
 
-  // Once more at the final pose: how good is it?
-  void judge(Alignment& result) const {
-    ViewOverlap overlap(view_);
-    const IcpSums sums = sum(config_.gate, 1, &overlap);
+  // How good is the final pose? @param sums at it.
+  void judge(const IcpSums& sums, Alignment& result) const {
     result.T_world_camera = T_;
     result.partners = sums.partners;
     if (sums.partners == 0) return;
     result.rms = std::sqrt(sums.squares / sums.weight);
+    ViewOverlap overlap(view_);
+    for (const int pixel : surfels_.pixels()) overlap.mark(pixel);
     result.overlap = overlap.share();
     result.agreement = static_cast<double>(sums.partners) / (sums.partners + sums.seen_through);
     const auto solver = decompose(sums);
@@ -252,12 +223,11 @@ class Aligner {
     result.observed_directions = observed_;
   }
 
-  static constexpr double kSeenThrough = 0.04;  // share of the depth
-
-  std::vector<Surfel> surfels_;
+  IcpPartners coarse_, surfels_;
   const SurfaceImage& view_;
   const FrustumIcpConfig& config_;
   double hold_sigma_;
+  double hold_weight_ = kCorrelation;
   double least_cosine_;
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();  // the prior, orthonormal
   Eigen::Isometry3d T_ = Eigen::Isometry3d::Identity();      // T_world_camera
@@ -289,13 +259,13 @@ std::vector<std::string> FrustumIcpConfig::validate() const {
   return errors;
 }
 
-Alignment align(std::vector<Surfel> surfels, const SurfaceImage& view,
+Alignment align(const std::vector<Surfel>& surfels, const SurfaceImage& view,
                 const Eigen::Isometry3d& T_world_camera_prior, const FrustumIcpConfig& config,
                 double hold_sigma) {
   if (!is_rigid(T_world_camera_prior)) {
     throw std::invalid_argument("frustum ICP: the prior is not rigid");
   }
-  return Aligner(std::move(surfels), view, config, hold_sigma).run(T_world_camera_prior);
+  return Aligner(surfels, view, config, hold_sigma).run(T_world_camera_prior);
 }
 
 }  // namespace geomap::perception

@@ -6,14 +6,9 @@
 #include <vector>
 
 #include "perception/surface_image.hpp"
+#include "perception/surfel.hpp"
 
 namespace geomap::perception {
-
-/// @brief One piece of the map's surface: mean of a voxel's points and their mean normal, world.
-struct Surfel {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    // unit, to the side it was seen from
-};
 
 struct FrustumIcpConfig {
   int max_iterations = 30;
@@ -76,7 +71,7 @@ struct Alignment {
 /// measurement, which decides where the view tells little, and counts less the farther the view is
 /// from it. 0: only a start.
 /// @throws std::invalid_argument unless the prior is rigid.
-Alignment align(std::vector<Surfel> surfels, const SurfaceImage& view,
+Alignment align(const std::vector<Surfel>& surfels, const SurfaceImage& view,
                 const Eigen::Isometry3d& T_world_camera_prior, const FrustumIcpConfig& config = {},
                 double hold_sigma = 0.0);
 

@@ -60,15 +60,14 @@ RegistrationResult IcpRegistration::align(const FrameView& view, const VoxelMap&
     result.accepted = true;
     return result;
   }
-  SurfelSelection selection =
+  const SurfelSelection selection =
       map.surfels_in(frustum_of(view, T_world_camera_prior, config_.margin));
   result.blocks_visited = selection.blocks_visited;
   // Where the prior is a guess, what the view tells weakly is still the better of the two.
   FrustumIcpConfig icp = config_.icp;
   if (source == PriorSource::kGuessed) icp.noise_factor *= kGuessShare;
-  result.alignment =
-      perception::align(std::move(selection.surfels), view.surfaces, T_world_camera_prior, icp,
-                        source == PriorSource::kMeasured ? config_.hold_sigma : 0.0);
+  result.alignment = perception::align(selection.surfels, view.surfaces, T_world_camera_prior, icp,
+                                       source == PriorSource::kMeasured ? config_.hold_sigma : 0.0);
   result.reason = judge(result, source);
   result.accepted = result.reason == RegistrationReason::kAligned;
   if (result.accepted) result.T_world_camera = result.alignment->T_world_camera;

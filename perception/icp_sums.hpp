@@ -20,21 +20,6 @@ struct IcpSums {
   int partners = 0;
   int seen_through = 0;  // surfels nearer than the view's surface by more than the gate
 
-  /// @param w weight [1/m²]; @param e residual [m]; @param p from the camera's centre [m]; @param n
-  /// unit normal; both in the world's axes.
-  void add(double w, double e, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
-    const Eigen::Vector3d m = p.cross(n);
-    const std::array<double, 6> j = {n.x(), n.y(), n.z(), m.x(), m.y(), m.z()};
-    for (std::size_t r = 0, k = 0; r < 6; ++r) {
-      const double wj = w * j[r];
-      for (std::size_t c = r; c < 6; ++c) information[k++] += wj * j[c];
-      vector[r] += wj * e;
-    }
-    weight += w;
-    squares += w * e * e;
-    radius_squares += w * p.squaredNorm();
-    ++partners;
-  }
   Eigen::Matrix<double, 6, 6> matrix() const {
     Eigen::Matrix<double, 6, 6> m;
     for (int r = 0, k = 0; r < 6; ++r) {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,7 +39,8 @@ struct FrameView {
 };
 
 /// @brief What the robot has seen: a fold over key frames. Of each one a thin frame is kept, and
-/// the voxels hold exactly the readings of the thin frames at their poses. So a key frame can be
+/// the voxels hold exactly the readings of the thin frames at their poses, each with the depth
+/// correction that it has. So a key frame can be
 /// dropped or moved at any time, at the cost of that key frame alone, and the map is the same to
 /// the last bit as if it had been built so from the start, in any order.
 class PointMap {
@@ -66,9 +69,17 @@ class PointMap {
   /// @throws std::invalid_argument for a pose that is not rigid or out of range; nothing is moved.
   bool move(std::int64_t keyframe, const Eigen::Isometry3d& T_world_camera);
 
-  /// @brief Another correction of depth from here on: the map is built anew from all key frames.
+  /// @brief Another correction of depth from here on. Key frames in the map keep the one they have
+  /// until refresh().
   void set_depth_correction(const DepthCorrection& correction);
-  const DepthCorrection& depth_correction() const { return correction_; }
+  const DepthCorrection& depth_correction() const { return revisions_.at(revision_).correction; }
+
+  /// @brief Gives up to `count` key frames the present correction, those first whose own is
+  /// farthest from it; of equals, the newest. @param least_change of the correction somewhere in
+  /// the image, as a share of the depth, below which a key frame stays as it is.
+  /// @return how many were changed. After refresh(keyframes(), 0) the map is as if the correction
+  /// had always been this one.
+  std::size_t refresh(std::size_t count, double least_change);
 
   void clear();  // key frames; the correction stays, it is the camera's
 
@@ -86,14 +97,24 @@ class PointMap {
   struct Kept {
     geometry::RgbdFrame frame;
     Eigen::Isometry3d T_world_camera;
+    std::int64_t revision;  // of the correction with which it is in the voxels
+  };
+  // A correction and the key frames that have it.
+  struct Revision {
+    DepthCorrection correction;
+    std::set<std::int64_t> keyframes = {};
+    double change = 0.0;  // to the present one, largest in the image
   };
 
-  FrameView view_of_thin(const geometry::RgbdFrame& thin) const;
+  FrameView view_of_thin(const geometry::RgbdFrame& thin, std::int64_t revision) const;
+  std::optional<std::int64_t> most_outdated(double least_change) const;
+  void forget_revision(std::int64_t keyframe, std::int64_t revision);
 
   PointMapConfig config_;
-  DepthCorrection correction_;
   VoxelMap voxels_;
   std::map<std::int64_t, Kept> kept_;  // by id
+  std::int64_t revision_ = 0;          // the present one, of which there is always an entry
+  std::map<std::int64_t, Revision> revisions_ = {{0, {}}};
 };
 
 }  // namespace geomap::perception

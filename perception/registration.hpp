@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "perception/frustum_icp.hpp"
 #include "perception/point_map.hpp"
 
 namespace geomap::perception {

@@ -39,6 +39,8 @@ struct SurfacePixel {
 /// where nothing flat fits, or where the surface is seen at more than about 81 degrees.
 class SurfaceImage {
  public:
+  static constexpr double kNearest = 0.1;  // no camera of this kind sees nearer [m]
+
   /// @param noise of a reading; a plane must fit within 1.5 sigma rms.
   /// @throws std::invalid_argument when depth image and camera disagree in size.
   SurfaceImage(const geometry::RgbdFrame& frame, double min_depth, double max_depth,
@@ -60,18 +62,14 @@ class SurfaceImage {
     const SurfacePixel& pixel = at(static_cast<int>(u), static_cast<int>(v));
     return pixel.valid() ? &pixel : nullptr;
   }
-  /// @brief Number of one of this image's pixels, row by row.
-  int index_of(const SurfacePixel& pixel) const {
-    return static_cast<int>(&pixel - pixels_.data());
-  }
+  /// @brief All of them, row by row, and one more without a surface.
+  const SurfacePixel* pixels() const { return pixels_.data(); }
   int size() const { return valid_; }            // pixels with a surface
   double farthest() const { return farthest_; }  // largest depth with a surface [m]
 
  private:
-  static constexpr double kNearest = 0.1;  // no camera of this kind sees nearer [m]
-
   geometry::CameraModel camera_;
-  std::vector<SurfacePixel> pixels_;  // row by row
+  std::vector<SurfacePixel> pixels_;  // row by row, and an empty one
   int valid_ = 0;
   double farthest_ = 0.0;
 };

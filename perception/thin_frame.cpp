@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <stdexcept>
+#include <vector>
+
+#include "perception/thin_blocks.hpp"
 
 namespace geomap::perception {
 namespace {
@@ -42,49 +46,73 @@ void check(const RgbdFrame& frame, std::size_t max_bytes) {
   if (max_bytes < 5) throw std::invalid_argument("thin_frame: max_bytes is less than one pixel");
 }
 
-/// Sums over the pixels of one block that lie on the surface of its centre.
-struct BlockSums {
-  std::int64_t depth = 0;
-  std::array<std::int64_t, 3> color{};
-  std::int64_t pixels = 0;
-
-  void add(const RgbdFrame& frame, std::size_t pixel, bool colored) {
-    depth += frame.depth.millimetres[pixel];
-    ++pixels;
-    if (!colored) return;
-    for (std::size_t c = 0; c < 3; ++c) color[c] += frame.color.rgb[3 * pixel + c];
-  }
-  static std::int64_t rounded(std::int64_t sum, std::int64_t count) {
-    return (2 * sum + count) / (2 * count);
-  }
-};
-
-BlockSums sum_block(const RgbdFrame& frame, int u, int v, int step, bool colored) {
-  const auto& mm = frame.depth.millimetres;
-  const int width = frame.depth.width;
-  const auto centre = static_cast<std::size_t>(v * width + u);
-  BlockSums sums;
-  if (!DepthImage::is_reading(mm[centre])) return sums;
-  sums.add(frame, centre, colored);
-  // A plane seen at 70 degrees changes by 1.5 % over three pixels of a Kinect.
-  const int same_surface = 10 + mm[centre] / 64;  // [mm]
-  const auto belongs = [&](std::uint16_t value) {
-    return DepthImage::is_reading(value) && std::abs(value - mm[centre]) <= same_surface;
+// Any block, also one that the image's border cuts.
+BlockSum sum_block(const geometry::DepthImage& depth, int u, int v, int step) {
+  const auto& mm = depth.millimetres;
+  const int width = depth.width, radius = step / 2;
+  const auto centre = static_cast<std::ptrdiff_t>(v) * width + u;
+  const int centre_mm = mm[static_cast<std::size_t>(centre)];
+  if (!DepthImage::is_reading(mm[static_cast<std::size_t>(centre)])) return {};
+  BlockSum sum{0, 1, 1U << BlockSum::kBeside};
+  const auto belongs = [&](std::ptrdiff_t pixel) {
+    const std::uint16_t value = mm[static_cast<std::size_t>(pixel)];
+    return DepthImage::is_reading(value) && std::abs(value - centre_mm) <= same_surface(centre_mm);
   };
-  const int radius = step / 2;
-  const int bottom = std::min(radius, std::min(v, frame.depth.height - 1 - v));
+  const auto difference = [&](std::ptrdiff_t pixel) {
+    return mm[static_cast<std::size_t>(pixel)] - centre_mm;
+  };
+  const int bottom = std::min(radius, std::min(v, depth.height - 1 - v));
   const int side = std::min(radius, std::min(u, width - 1 - u));
   for (int dv = 0; dv <= bottom; ++dv) {
     for (int du = dv == 0 ? 1 : -side; du <= side; ++du) {
-      const auto offset = static_cast<std::ptrdiff_t>(dv) * width + du;
-      const auto pixel = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(centre) + offset);
-      const auto mirrored = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(centre) - offset);
-      if (!belongs(mm[pixel]) || !belongs(mm[mirrored])) continue;
-      sums.add(frame, pixel, colored);
-      sums.add(frame, mirrored, colored);
+      const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(dv) * width + du;
+      if (!belongs(centre + offset) || !belongs(centre - offset)) continue;
+      sum.differences += difference(centre + offset) + difference(centre - offset);
+      sum.pixels += 2;
+      if (dv > 0 || du > BlockSum::kBeside) continue;
+      const unsigned both = 1U << (BlockSum::kBeside + du) | 1U << (BlockSum::kBeside - du);
+      sum.beside = static_cast<std::uint8_t>(sum.beside | both);
     }
   }
-  return sums;
+  return sum;
+}
+
+// The blocks whose centres lie in row v.
+void sum_row(const geometry::DepthImage& depth, int v, int step, std::vector<BlockSum>& sums) {
+  const int radius = step / 2, count = static_cast<int>(sums.size());
+  int done = 0;
+  if (v >= radius && v + radius < depth.height) {
+    const int whole = std::clamp((depth.width - 1) / step, 0, count);
+    const std::uint16_t* row =
+        depth.millimetres.data() + static_cast<std::ptrdiff_t>(v) * depth.width;
+    if (sum_blocks(row + radius, depth.width, step, whole, sums.data())) done = whole;
+  }
+  for (int k = done; k < count; ++k) {
+    sums[static_cast<std::size_t>(k)] = sum_block(depth, k * step + radius, v, step);
+  }
+}
+
+std::int32_t rounded(std::int32_t sum, std::int32_t count) {
+  return (2 * sum + count) / (2 * count);
+}
+
+std::uint16_t mean_depth(std::uint16_t centre, const BlockSum& sum) {
+  if (sum.pixels == 0) return DepthImage::kNoReading;
+  return static_cast<std::uint16_t>(rounded(centre * sum.pixels + sum.differences, sum.pixels));
+}
+
+// @param centre three bytes.
+void append_mean_color(const std::uint8_t* centre, const BlockSum& sum,
+                       std::vector<std::uint8_t>& rgb) {
+  std::array<std::int32_t, 3> total{};
+  for (unsigned rest = sum.beside; rest != 0; rest &= rest - 1) {
+    const std::uint8_t* pixel = centre + 3 * (std::countr_zero(rest) - BlockSum::kBeside);
+    for (std::size_t c = 0; c < 3; ++c) total[c] += pixel[c];
+  }
+  const int count = std::max(1, std::popcount(sum.beside));
+  for (const std::int32_t value : total) {
+    rgb.push_back(static_cast<std::uint8_t>(rounded(value, count)));
+  }
 }
 
 }  // namespace
@@ -110,15 +138,15 @@ RgbdFrame thin_frame(const RgbdFrame& frame, std::size_t max_bytes) {
     thin.color.height = thin.depth.height;
     thin.color.rgb.reserve(thin.depth.millimetres.capacity() * 3);
   }
+  std::vector<BlockSum> sums(static_cast<std::size_t>(thin.depth.width));
   for (int v = step / 2; v < frame.depth.height; v += step) {
-    for (int u = step / 2; u < frame.depth.width; u += step) {
-      const BlockSums sums = sum_block(frame, u, v, step, colored);
-      const std::int64_t n = std::max<std::int64_t>(sums.pixels, 1);
-      thin.depth.millimetres.push_back(
-          static_cast<std::uint16_t>(BlockSums::rounded(sums.depth, n)));
-      for (std::size_t c = 0; c < (colored ? 3U : 0U); ++c) {
-        thin.color.rgb.push_back(static_cast<std::uint8_t>(BlockSums::rounded(sums.color[c], n)));
-      }
+    sum_row(frame.depth, v, step, sums);
+    auto pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.depth.width) +
+                 static_cast<std::size_t>(step / 2);
+    for (const BlockSum& sum : sums) {
+      thin.depth.millimetres.push_back(mean_depth(frame.depth.millimetres[pixel], sum));
+      if (colored) append_mean_color(&frame.color.rgb[3 * pixel], sum, thin.color.rgb);
+      pixel += static_cast<std::size_t>(step);
     }
   }
   return thin;

@@ -15,7 +15,8 @@ namespace geomap::perception {
 /// pairs of pixels opposite each other about the centre where both readings lie on the centre's
 /// surface: most of the noise goes, a plane keeps its place even beside a hole or an edge, and no
 /// point appears between two surfaces. A pixel without a reading stays without one. Colour is
-/// averaged over the same pixels, and left out unless its image has the size of the depth image.
+/// averaged over those of these pixels that lie beside the centre, up to three on either side, and
+/// left out unless its image has the size of the depth image.
 ///
 /// @return a valid RgbdFrame with the camera of the kept pixels: it projects a point to (u, v)
 /// where the full camera projects it to (step u + step / 2, step v + step / 2).

@@ -212,29 +212,32 @@ Tracked Tracker::take(std::int64_t utime, const Prior& prior, FrameView view,
 void Tracker::insert(std::int64_t utime, FrameView view, const Eigen::Isometry3d& T_world_camera) {
   point_map_.insert(utime, view, T_world_camera);
   keyframes_.push_back({utime, T_world_camera});
-  surfaces_.push_front({utime, T_world_camera, std::move(view.surfaces)});
+  surfaces_.push_front(
+      {utime, T_world_camera, std::move(view.surfaces), point_map_.depth_correction()});
   if (surfaces_.size() > kBefore.back() + 1) surfaces_.pop_back();
   if (aligns() && config_.depth_correction.enabled) improve_depth_correction();
 }
 
 void Tracker::improve_depth_correction() {
+  const auto view_of = [](const KeyframeSurfaces& kept) {
+    return DepthCorrectionEstimator::View{kept.surfaces, kept.T_world_camera, kept.correction};
+  };
   const KeyframeSurfaces& newest = surfaces_.front();
-  const DepthCorrection& applied = point_map_.depth_correction();
   for (const std::size_t before : kBefore) {
     if (before >= surfaces_.size()) break;
-    const KeyframeSurfaces& other = surfaces_[before];
-    correction_.add(newest.surfaces, newest.T_world_camera, other.surfaces, other.T_world_camera,
-                    applied);
+    correction_.add(view_of(newest), view_of(surfaces_[before]));
   }
   if (keyframes_.size() < kLeastKeyframes) return;
   const DepthCorrection estimate = correction_.estimate();
-  if (DepthCorrection::largest_difference(estimate, applied, newest.surfaces.camera()) <
+  if (DepthCorrection::largest_difference(estimate, point_map_.depth_correction(),
+                                          newest.surfaces.camera()) >=
       config_.depth_correction.least_change) {
-    return;
+    point_map_.set_depth_correction(estimate);
+    ++counts_.corrections;
   }
-  point_map_.set_depth_correction(estimate);
-  ++counts_.corrections;
-  for (KeyframeSurfaces& kept : surfaces_) kept.surfaces = point_map_.view_of(kept.id)->surfaces;
+  counts_.refreshed += static_cast<std::int64_t>(
+      point_map_.refresh(static_cast<std::size_t>(config_.depth_correction.refresh_count),
+                         config_.depth_correction.refresh_change));
 }
 
 bool Tracker::remove(std::int64_t keyframe) {

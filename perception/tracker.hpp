@@ -80,7 +80,8 @@ struct TrackerCounts {
   std::int64_t relocalised = 0;     // and found again
   std::int64_t relinked = 0;        // odometry that jumped, restarted or came late, tied in anew
   std::int64_t time_went_back = 0;  // frames older than the one before
-  std::int64_t corrections = 0;     // rebuilds of the point map with a better depth correction
+  std::int64_t corrections = 0;     // better depth corrections
+  std::int64_t refreshed = 0;       // key frames that the point map holds with a better one since
 };
 
 /// @brief The paper's section on registration as one object: prior, key frame?, frustum ICP, point
@@ -130,6 +131,7 @@ class Tracker {
     std::int64_t id;
     Eigen::Isometry3d T_world_camera;
     SurfaceImage surfaces;
+    DepthCorrection correction;  // that they were made with
   };
 
   std::optional<Start> start_of(const Prior& prior, std::int64_t utime) const;

@@ -21,11 +21,8 @@ class ViewOverlap {
       for (int u = 0; u < view.width(); ++u) surfaces_[patch(u, v)] += view.at(u, v).valid();
     }
   }
-  /// @param pixel of the view, whose surface lies on the map.
-  void mark(const SurfacePixel& pixel) {
-    const int index = view_.index_of(pixel);
-    found_[patch(index % view_.width(), index / view_.width())] = 1;
-  }
+  /// @param index of a pixel whose surface lies on the map, row by row.
+  void mark(int index) { found_[patch(index % view_.width(), index / view_.width())] = 1; }
   /// @brief Of the view's surfaces, 0 to 1.
   double share() const {
     int all = 0, found = 0;

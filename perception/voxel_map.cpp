@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "perception/rigid_transform.hpp"
+#include "perception/voxel_rows.hpp"
 
 namespace geomap::perception {
 namespace {
@@ -49,12 +51,11 @@ Fine to_fine(const Eigen::Vector3d& p) {
 }
 
 std::array<std::int32_t, 3> to_fixed(const Eigen::Vector3d& normal) {
-  std::array<std::int32_t, 3> fixed;
-  for (int i = 0; i < 3; ++i) {
-    fixed[static_cast<std::size_t>(i)] =
-        static_cast<std::int32_t>(std::lround(MapVoxel::kNormalUnit * normal(i)));
-  }
-  return fixed;
+  const auto rounded = [](double value) {
+    return static_cast<std::int32_t>(value + (value < 0.0 ? -0.5 : 0.5));
+  };
+  const Eigen::Vector3d fixed = MapVoxel::kNormalUnit * normal;
+  return {rounded(fixed.x()), rounded(fixed.y()), rounded(fixed.z())};
 }
 
 Eigen::Vector3d first_moment(const MapVoxel& voxel) {
@@ -81,6 +82,26 @@ MapPoint to_point(const MapVoxel& voxel, const Eigen::Vector3d& center, double m
         static_cast<std::uint8_t>((voxel.color[c] + voxel.colored / 2) / voxel.colored);
   }
   return point;
+}
+
+// Lowest and highest block of a column of blocks (index.x, index.y) that may lie inside a frustum,
+// perhaps one too many at either end. Blocks in between are looked up, the others are not.
+std::pair<int, int> levels_inside(const geometry::Frustum& frustum, const BlockIndex& column,
+                                  double side) {
+  double lowest = -1e9, highest = 1e9;  // [side]
+  for (const geometry::Plane& plane : frustum.planes()) {
+    const Eigen::Vector3d& n = plane.normal;
+    // Of the column's boxes, the edge that is farthest along the inward normal.
+    const double x = side * (column.x + (n.x() >= 0.0 ? 1 : 0));
+    const double y = side * (column.y + (n.y() >= 0.0 ? 1 : 0));
+    const double beneath = n.x() * x + n.y() * y + plane.d;  // plus n.z z: inside if not negative
+    if (std::abs(n.z()) < 1e-9) continue;
+    const double level = -beneath / (n.z() * side);
+    if (n.z() > 0.0) lowest = std::max(lowest, level - 1.0);
+    if (n.z() < 0.0) highest = std::min(highest, level);
+  }
+  return {static_cast<int>(std::floor(std::clamp(lowest, -1e9, 1e9))),
+          static_cast<int>(std::floor(std::clamp(highest, -1e9, 1e9)))};
 }
 
 }  // namespace
@@ -110,27 +131,41 @@ std::size_t VoxelMap::for_each_reading(const RgbdFrame& frame,
   const auto& camera = frame.depth_camera;
   const bool colored =
       frame.color.width == frame.depth.width && frame.color.height == frame.depth.height;
+  // All places are in fine units, those of a row from a whole number of them near the camera.
   const Eigen::Matrix3d rotation = fine_per_metre_ * 1e-3 * T_world_camera.linear();
   const Eigen::Vector3d origin = fine_per_metre_ * T_world_camera.translation();
+  const Fine near_origin = to_fine(origin);
   const Eigen::Vector3d step = rotation.col(0) / camera.fx;
-  const double nearest = config_.min_depth * 1e3;
-  const double farthest = config_.max_depth * 1e3;
+  VoxelRow row{
+      {}, {}, {step.x(), step.y(), step.z()}, config_.min_depth * 1e3, config_.max_depth * 1e3};
+  for (std::size_t i = 0; i < 3; ++i) {
+    row.origin[i] = origin(static_cast<Eigen::Index>(i)) - static_cast<double>(near_origin[i]);
+  }
+  const std::size_t width = pixels_of(camera.width, 1);
+  std::vector<std::int32_t> places(3 * width);
+  std::vector<std::uint8_t> counts(width);
+  const std::array<std::int32_t*, 3> place = {places.data(), places.data() + width,
+                                              places.data() + 2 * width};
   std::size_t readings = 0;
   for (int v = 0; v < camera.height; ++v) {
-    // Direction of the row's first pixel; all directions are in fine units per millimetre of depth.
-    const Eigen::Vector3d row = rotation * camera.ray(0.0, v);
+    const Eigen::Vector3d ray = rotation * camera.ray(0.0, v);
+    row.ray = {ray.x(), ray.y(), ray.z()};
     const std::size_t row_start = pixels_of(camera.width, v);
-    for (int u = 0; u < camera.width; ++u) {
-      const std::uint16_t reading = frame.depth.at(u, v);
-      if (!DepthImage::is_reading(reading) || reading < nearest || reading > farthest) continue;
-      const Eigen::Vector3d p = origin + static_cast<double>(reading) * (row + u * step);
-      const std::size_t pixel = row_start + static_cast<std::size_t>(u);
+    place_readings(row, frame.depth.millimetres.data() + row_start, camera.width, place,
+                   counts.data());
+    for (std::size_t u = 0; u < width; ++u) {
+      if (counts[u] == 0) continue;
       VoxelReading contribution;
-      if (colored) contribution.rgb = &frame.color.rgb[3 * pixel];
-      if (surfaces != nullptr && surfaces->at(u, v).valid()) {
-        contribution.normal = to_fixed(T_world_camera.linear() * surfaces->at(u, v).normal);
+      if (colored) contribution.rgb = &frame.color.rgb[3 * (row_start + u)];
+      if (surfaces != nullptr) {
+        const SurfacePixel& surface = surfaces->pixels()[row_start + u];
+        if (surface.valid()) {
+          contribution.normal = to_fixed(T_world_camera.linear() * surface.normal);
+        }
       }
-      const VoxelAddress address = VoxelAddress::of(to_fine(p));
+      const VoxelAddress address =
+          VoxelAddress::of({near_origin[0] + place[0][u], near_origin[1] + place[1][u],
+                            near_origin[2] + place[2][u]});
       contribution.offset = address.offset;
       action(address, contribution);
       ++readings;
@@ -187,7 +222,9 @@ Eigen::AlignedBox3d VoxelMap::block_box(const BlockIndex& index) const {
 }
 
 SurfelSelection VoxelMap::surfels_in(const geometry::Frustum& frustum) const {
+  constexpr std::size_t kUsual = 8192;
   SurfelSelection selection;
+  selection.surfels.reserve(std::min(kUsual, voxels_));
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& corner : frustum.corners()) box.extend(corner);
   const double side = config_.voxel_size * MapBlock::kSide;
@@ -200,7 +237,9 @@ SurfelSelection VoxelMap::surfels_in(const geometry::Frustum& frustum) const {
   BlockIndex index;
   for (index.x = first.x(); index.x <= last.x(); ++index.x) {
     for (index.y = first.y(); index.y <= last.y(); ++index.y) {
-      for (index.z = first.z(); index.z <= last.z(); ++index.z) {
+      const auto [lowest, highest] = levels_inside(frustum, index, side);
+      index.z = std::max(first.z(), lowest);
+      for (const int end = std::min(last.z(), highest); index.z <= end; ++index.z) {
         ++selection.blocks_visited;
         const auto found = blocks_.find(index);
         if (found == blocks_.end() || !frustum.may_intersect(block_box(index))) continue;
@@ -214,16 +253,15 @@ SurfelSelection VoxelMap::surfels_in(const geometry::Frustum& frustum) const {
 
 void VoxelMap::append_surfels(const BlockIndex& index, const MapBlock& block,
                               std::vector<Surfel>& surfels) const {
-  for (int number = 0; number < MapBlock::kVoxels; ++number) {
-    const MapVoxel* voxel = block.find(number);
-    if (voxel == nullptr) continue;
-    const Eigen::Vector3d normal(voxel->normal[0], voxel->normal[1], voxel->normal[2]);
-    const double length = normal.norm();
-    if (length < kLeastAgreement * MapVoxel::kNormalUnit * voxel->count) continue;
-    const Eigen::Vector3d mean =
-        first_moment(*voxel).array() / voxel->count + 0.5;  // as to_point()
-    surfels.push_back({voxel_center(index, number) + mean / fine_per_metre_, normal / length});
-  }
+  constexpr double kLeastLength = kLeastAgreement * MapVoxel::kNormalUnit;
+  block.for_each([&](int number, const MapVoxel& voxel) {
+    const Eigen::Vector3d normal(voxel.normal[0], voxel.normal[1], voxel.normal[2]);
+    const double n = voxel.count, squared = normal.squaredNorm();
+    if (squared < kLeastLength * kLeastLength * n * n) return;
+    const Eigen::Vector3d mean = first_moment(voxel).array() / n + 0.5;  // as to_point()
+    surfels.push_back(
+        {voxel_center(index, number) + mean / fine_per_metre_, normal / std::sqrt(squared)});
+  });
 }
 
 Eigen::Vector3d VoxelMap::voxel_center(const BlockIndex& index, int number) const {
@@ -239,10 +277,8 @@ MapPoint VoxelMap::point_of(const BlockIndex& index, int number, const MapVoxel&
 
 void VoxelMap::append_points(const BlockIndex& index, const MapBlock& block,
                              std::vector<MapPoint>& points) const {
-  for (int number = 0; number < MapBlock::kVoxels; ++number) {
-    const MapVoxel* voxel = block.find(number);
-    if (voxel != nullptr) points.push_back(point_of(index, number, *voxel));
-  }
+  block.for_each(
+      [&](int number, const MapVoxel& voxel) { points.push_back(point_of(index, number, voxel)); });
 }
 
 std::optional<MapPoint> VoxelMap::at(const Eigen::Vector3d& p_world) const {

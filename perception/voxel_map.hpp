@@ -12,9 +12,9 @@
 
 #include "geometry/frustum.hpp"
 #include "geometry/rgbd_frame.hpp"
-#include "perception/frustum_icp.hpp"
 #include "perception/map_voxel.hpp"
 #include "perception/surface_image.hpp"
+#include "perception/surfel.hpp"
 
 namespace geomap::perception {
 
@@ -44,7 +44,7 @@ struct MapPoint {
 /// @brief The map's surface inside a frustum, and what finding it took.
 struct SurfelSelection {
   std::vector<Surfel> surfels;  // ordered by block and voxel
-  int blocks_visited = 0;       // looked up: those of the frustum's bounding box
+  int blocks_visited = 0;       // looked up: those between the frustum's sides
   int blocks_used = 0;          // that hold points and may lie inside the frustum
 };
 

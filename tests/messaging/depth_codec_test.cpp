@@ -77,6 +77,18 @@ TEST(DepthCodec, DepthIsLittleEndianOnTheWire) {
   EXPECT_EQ(inflate_bytes(compress_depth(depth), 4), (Bytes{0x02, 0x01, 0xfe, 0xff}));
 }
 
+TEST(DepthCodec, DepthSurvives) {
+  std::vector<std::uint16_t> depth(640 * 48);
+  std::mt19937 random(2);
+  for (std::uint16_t& value : depth) value = static_cast<std::uint16_t>(random() % 4000);
+  const Bytes stream = compress_depth(depth);
+  EXPECT_EQ(decompress_depth(stream, depth.size()), depth);
+  EXPECT_FALSE(decompress_depth(stream, depth.size() - 1));
+  EXPECT_FALSE(decompress_depth(stream, depth.size() + 1));
+  EXPECT_FALSE(decompress_depth(std::span(stream).first(stream.size() - 1), depth.size()));
+  EXPECT_FALSE(decompress_depth(some_bytes(100), 1'000'000'000));
+}
+
 TEST(DepthCodec, PaddingOfRowsIsDropped) {
   const Bytes rows = {1, 0, 2, 0, 99, 99, 3, 0, 4, 0, 99, 99};
   EXPECT_EQ(unpack_depth(rows, 2, 2, 6), (std::vector<std::uint16_t>{1, 2, 3, 4}));

@@ -18,18 +18,20 @@ using geometry::CameraModel;
 /// What the estimator makes of all pairs of views with this error.
 /// @param metres, degrees of error of each pose that it is told.
 DepthCorrection learnt(const DepthCorrection& truth, double metres, double degrees,
-                       const DepthCorrection& applied = DepthCorrection()) {
+                       const std::vector<DepthCorrection>& applied = {DepthCorrection()}) {
   std::vector<SurfaceImage> views;
   std::vector<Isometry3d> told;
+  std::vector<DepthCorrection> corrections;
   for (const Isometry3d& T : poses_around_the_room()) {
     const auto rendering = testing::render(testing::small_room(), testing::kinect_camera(7), T);
-    views.emplace_back(corrected(distorted(rendering, truth), applied), 0.4, 5.0);
+    corrections.push_back(applied[views.size() % applied.size()]);
+    views.emplace_back(corrected(distorted(rendering, truth), corrections.back()), 0.4, 5.0);
     told.push_back(disturbed(T, metres, degrees, static_cast<unsigned>(told.size() + 1)));
   }
   DepthCorrectionEstimator estimator;
   for (std::size_t a = 0; a < views.size(); ++a) {
     for (std::size_t b = a + 1; b < views.size(); ++b) {
-      estimator.add(views[a], told[a], views[b], told[b], applied);
+      estimator.add({views[a], told[a], corrections[a]}, {views[b], told[b], corrections[b]});
     }
   }
   return estimator.estimate();
@@ -70,7 +72,12 @@ TEST(DepthCorrectionEstimator, LearnsItAsWellWherePosesAreOffByACentimetre) {
 
 TEST(DepthCorrectionEstimator, FindsTheWholeErrorWhereAPartIsCorrectedAlready) {
   const DepthCorrection half(0.5 * bowl().coefficients());
-  EXPECT_LT(relative_error(learnt(bowl(), 0.0, 0.0, half), bowl()), 0.3);
+  EXPECT_LT(relative_error(learnt(bowl(), 0.0, 0.0, {half}), bowl()), 0.3);
+}
+
+TEST(DepthCorrectionEstimator, FindsItFromViewsOfWhichEachWasCorrectedInAnotherWay) {
+  const DepthCorrection half(0.5 * bowl().coefficients()), beyond(1.4 * bowl().coefficients());
+  EXPECT_LT(relative_error(learnt(bowl(), 0.0, 0.0, {{}, half, beyond}), bowl()), 0.3);
 }
 
 TEST(DepthCorrectionEstimator, FindsNothingWhereThereIsNoError) {
@@ -88,7 +95,7 @@ TEST(DepthCorrectionEstimator, TakesNothingFromViewsThatShareNothing) {
   const SurfaceImage view = exact_view(room, room.T_world_camera);
   const Isometry3d elsewhere = Eigen::Translation3d(20.0, 0.0, 0.0) * room.T_world_camera;
   DepthCorrectionEstimator estimator;
-  EXPECT_EQ(estimator.add(view, room.T_world_camera, view, elsewhere, {}), 0);
+  EXPECT_EQ(estimator.add({view, room.T_world_camera, {}}, {view, elsewhere, {}}), 0);
   EXPECT_TRUE(estimator.estimate().is_none());
 }
 
@@ -102,7 +109,7 @@ TEST(DepthCorrectionEstimator, FewViewsGiveACautiousCorrection) {
     views.emplace_back(distorted(rendering, bowl()), 0.4, 5.0);
   }
   DepthCorrectionEstimator estimator;
-  EXPECT_GT(estimator.add(views[0], all[0], views[1], all[1], {}), 500);
+  EXPECT_GT(estimator.add({views[0], all[0], {}}, {views[1], all[1], {}}), 500);
   EXPECT_LT(rms(estimator.estimate()), rms(bowl()));
   EXPECT_LT(relative_error(estimator.estimate(), bowl()), 1.0);
 }

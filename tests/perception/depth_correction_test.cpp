@@ -109,6 +109,11 @@ class CorrectedMap : public ::testing::Test {
       map_.insert(static_cast<std::int64_t>(i), frames_.back(), all[i]);
     }
   }
+  void correct(const DepthCorrection& correction) {
+    map_.set_depth_correction(correction);
+    map_.refresh(map_.keyframes(), 0.0);
+  }
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   static void expect_same(const PointMap& a, const PointMap& b) {
     const auto points_a = a.points(), points_b = b.points();
     ASSERT_EQ(points_a.size(), points_b.size());
@@ -129,27 +134,72 @@ TEST_F(CorrectedMap, IsTheMapThatHadTheCorrectionFromTheStart) {
     from_the_start.insert(static_cast<std::int64_t>(i), frames_[i], poses_around_the_room()[i]);
   }
   const Eigen::Vector3d before = map_.points().front().position;
-  map_.set_depth_correction(bowl());
+  correct(bowl());
   EXPECT_NE(map_.points().front().position, before);
   expect_same(map_, from_the_start);
 }
 
 TEST_F(CorrectedMap, IsTheSameAfterTheSameCorrectionAgainAndAfterTakingItBack) {
   const PointMap plain = map_;
-  map_.set_depth_correction(bowl());
+  correct(bowl());
   const PointMap once = map_;
-  map_.set_depth_correction(bowl());
+  correct(bowl());
   expect_same(map_, once);
-  map_.set_depth_correction({});
+  correct({});
   expect_same(map_, plain);
 }
 
 TEST_F(CorrectedMap, IsEmptyOnceAllKeyFramesAreRemoved) {
-  map_.set_depth_correction(bowl());
+  correct(bowl());
   for (const std::int64_t id : {1, 0, 2}) EXPECT_TRUE(map_.remove(id));
   EXPECT_EQ(map_.size(), 0U);
   EXPECT_TRUE(map_.voxels().blocks().empty());
   EXPECT_EQ(map_.memory_bytes(), 0U);
+}
+
+TEST_F(CorrectedMap, ChangesOneKeyFrameAtATimeTheMostOutdatedFirst) {
+  const PointMap plain = map_;
+  map_.set_depth_correction(bowl());
+  expect_same(map_, plain);
+  EXPECT_EQ(map_.refresh(1, 0.0), 1U);  // the newest: all are as outdated
+  PointMap mixed;
+  mixed.set_depth_correction(bowl());
+  mixed.insert(2, frames_[2], poses_around_the_room()[2]);
+  mixed.set_depth_correction({});
+  for (const int i : {0, 1}) mixed.insert(i, frames_[at(i)], poses_around_the_room()[at(i)]);
+  expect_same(map_, mixed);
+  // Half of the way back: key frame 2 and the others are equally far from it now.
+  map_.set_depth_correction(DepthCorrection(0.4 * bowl().coefficients()));
+  EXPECT_EQ(map_.refresh(1, 0.0), 1U);
+  mixed.remove(2);
+  mixed.set_depth_correction(DepthCorrection(0.4 * bowl().coefficients()));
+  mixed.insert(2, frames_[2], poses_around_the_room()[2]);
+  expect_same(map_, mixed);
+  EXPECT_EQ(map_.refresh(9, 0.0), 2U);
+  EXPECT_EQ(map_.refresh(9, 0.0), 0U);
+}
+
+TEST_F(CorrectedMap, LeavesAKeyFrameAsItIsWhereTheChangeIsTooSmall) {
+  const double change =
+      DepthCorrection::largest_difference(bowl(), {}, map_.view_of(0)->thin.depth_camera);
+  map_.set_depth_correction(bowl());
+  EXPECT_EQ(map_.refresh(9, 1.01 * change), 0U);
+  EXPECT_EQ(map_.refresh(9, 0.99 * change), 3U);
+}
+
+TEST_F(CorrectedMap, OutdatedKeyFramesAreRemovedAndMovedAsTheyAre) {
+  map_.set_depth_correction(bowl());
+  map_.refresh(1, 0.0);
+  const PointMap before = map_;
+  const Isometry3d T = poses_around_the_room()[0];
+  EXPECT_TRUE(map_.move(0, Eigen::Translation3d(0.5, 0.0, 0.0) * T));
+  EXPECT_TRUE(map_.move(0, T));
+  expect_same(map_, before);
+  for (const std::int64_t id : {1, 0, 2}) EXPECT_TRUE(map_.remove(id));
+  EXPECT_EQ(map_.size(), 0U);
+  EXPECT_EQ(map_.refresh(9, 0.0), 0U);
+  map_.set_depth_correction({});
+  EXPECT_TRUE(map_.depth_correction().is_none());
 }
 
 }  // namespace

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "support/plane_renderer.hpp"
 
@@ -114,6 +117,58 @@ TEST(ThinFrame, NoPointAppearsBetweenTwoSurfaces) {
   }
   for (const std::uint16_t reading : thin_frame(frame, kMaxBytes).depth.millimetres) {
     EXPECT_TRUE(reading == 1500 || reading == 2100) << reading;
+  }
+}
+
+/// The definition, pair by pair. @return 0 where the centre is no reading.
+std::uint16_t mean_of_pairs(const DepthImage& depth, int u, int v, int radius) {
+  const auto at = [&](int column, int row) -> int {
+    const bool inside = column >= 0 && row >= 0 && column < depth.width && row < depth.height;
+    const std::uint16_t value = inside ? depth.at(column, row) : DepthImage::kNoReading;
+    return DepthImage::is_reading(value) ? value : 0;
+  };
+  const int centre = at(u, v);
+  double sum = centre, count = centre > 0 ? 1.0 : 0.0;
+  const auto belongs = [&](int value) {
+    return value > 0 && centre > 0 && std::abs(value - centre) <= 10 + centre / 64;
+  };
+  for (int dv = -radius; dv <= radius; ++dv) {
+    for (int du = -radius; du <= radius; ++du) {
+      const int pixel = at(u + du, v + dv);
+      if ((du == 0 && dv == 0) || !belongs(pixel) || !belongs(at(u - du, v - dv))) continue;
+      sum += pixel;
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? static_cast<std::uint16_t>(std::floor(sum / count + 0.5)) : std::uint16_t{0};
+}
+
+TEST(ThinFrame, EveryReadingIsTheMeanOfThePairsOnItsSurfaceAtAnyStep) {
+  std::mt19937 random(3);
+  for (const auto& [width, height] : {std::pair{640, 480}, std::pair{633, 475}}) {
+    RgbdFrame frame;
+    frame.depth_camera = {width, height, 500.0, 500.0, 300.0, 200.0};
+    frame.depth = {width, height, {}};
+    for (int i = 0; i < width * height; ++i) {
+      // Surfaces that change now and then, readings around them, holes, and the range's ends.
+      const auto surface = static_cast<unsigned>(300 + i / 97 % 5 * 40 + i / 9001 * 1700);
+      const auto kind = random() % 40;
+      const unsigned odd[] = {0, 0xffff, 1, 65534};
+      frame.depth.millimetres.push_back(
+          static_cast<std::uint16_t>(kind < 4 ? odd[kind] : surface % 65000 + random() % 30));
+    }
+    for (const std::size_t max_bytes : {70'000U, 26'000U, 14'000U, 8'000U, 2'000U}) {
+      const RgbdFrame thin = thin_frame(frame, max_bytes);
+      const auto step = static_cast<int>(std::lround(frame.depth_camera.fx / thin.depth_camera.fx));
+      ASSERT_GT(step, 1);
+      for (int v = 0; v < thin.depth.height; ++v) {
+        for (int u = 0; u < thin.depth.width; ++u) {
+          ASSERT_EQ(thin.depth.at(u, v),
+                    mean_of_pairs(frame.depth, step * u + step / 2, step * v + step / 2, step / 2))
+              << "step " << step << " at " << u << ", " << v;
+        }
+      }
+    }
   }
 }
 
