@@ -3,8 +3,8 @@
 
 /// @brief Before a function: compiled for AVX-512, AVX2 and the baseline, and chosen when the
 /// program starts, so that one binary is fast on new processors and runs on old ones. Elsewhere
-/// (ARM, other compilers, sanitizers, which the choice would precede) the function is compiled once.
-/// All versions give the same bytes as long as the loops inside work element by element: the
+/// (ARM, other compilers, sanitizers, which the choice would precede) the function is compiled
+/// once. All versions give the same bytes as long as the loops inside work element by element: the
 /// compiler neither reorders sums nor contracts products here.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(GEOMAP_SINGLE_VERSION)
