@@ -17,7 +17,7 @@ struct DepthCorrectionConfig {
   double least_change = 0.001;  // below this, a new estimate is not applied
   // Key frames in the map get a better correction a few at a time, so that no frame waits.
   double refresh_change = 0.003;  // below this, a key frame is left as it is
-  int refresh_count = 2;          // at most, with each new key frame
+  int refresh_count = 1;          // at most, with each new key frame
   double correlation = 80.0;      // measurements that say no more than one: neighbours err alike
 
   std::vector<std::string> validate() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <bit>
 #include <compare>
@@ -25,6 +26,11 @@ struct MapVoxel {
   std::array<std::uint32_t, 3> color{};  // Σ red, green, blue; good for 16 million points
 
   static constexpr double kNormalUnit = 1024.0;
+
+  Eigen::Vector3d first_moment() const {
+    return {static_cast<double>(first[0]), static_cast<double>(first[1]),
+            static_cast<double>(first[2])};
+  }
 };
 
 /// @brief What one reading adds to its voxel.

@@ -2,7 +2,6 @@
 #include "perception/surface_rows.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "geometry/multiversion.hpp"
 #include "geometry/rgbd_frame.hpp"

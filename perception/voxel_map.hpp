@@ -60,6 +60,8 @@ struct SurfelSelection {
 /// origin up to 1000 km.
 class VoxelMap {
  public:
+  static constexpr double kFarthest = 1e6;  // of a camera from the origin, along an axis [m]
+
   /// @throws std::invalid_argument when the configuration is not valid.
   explicit VoxelMap(const VoxelMapConfig& config = {});
 
