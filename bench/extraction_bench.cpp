@@ -2,16 +2,19 @@
 // Plane extraction with outlines per key frame, beside the plain PCL recipe on the same frames.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include "kitchen_frames.hpp"
 #include "pcl_recipe.hpp"
+#include "perception/organized_extractor.hpp"
 #include "perception/ransac_extractor.hpp"
+#include "statistics.hpp"
 
 namespace {
 
+using geomap::bench::median;
+using geomap::bench::milliseconds;
+using geomap::bench::quantile;
 using geomap::geometry::RgbdFrame;
 
 constexpr int kFrameStep = 10;
@@ -21,48 +24,44 @@ const std::vector<RgbdFrame>& frames() {
   return loaded;
 }
 
-std::size_t extract(const RgbdFrame& frame) {
-  static const geomap::perception::RansacExtractor extractor;
-  return extractor.extract(frame, static_cast<std::uint64_t>(frame.utime), {}).planes.size();
+template <typename Extractor>
+double extract(const RgbdFrame& frame) {
+  static const Extractor extractor;
+  return milliseconds([&frame] {
+    benchmark::DoNotOptimize(
+        extractor.extract(frame, static_cast<std::uint64_t>(frame.utime), {}).planes.size());
+  });
 }
 
-std::size_t extract_by_pcl(const RgbdFrame& frame) {
-  return geomap::bench::pcl_recipe(frame).planes;
+double extract_by_pcl(const RgbdFrame& frame) {
+  return milliseconds(
+      [&frame] { benchmark::DoNotOptimize(geomap::bench::pcl_recipe(frame).planes); });
 }
 
-double milliseconds(std::size_t (*run)(const RgbdFrame&), const RgbdFrame& frame) {
-  const auto start = std::chrono::steady_clock::now();
-  benchmark::DoNotOptimize(run(frame));
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
-
-double quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
-}
-
-// Both take turns on every frame, so that whatever else the machine does hits them alike. One
+// All take turns on every frame, so that whatever else the machine does hits them alike. One
 // iteration goes over all frames once.
 void extraction_beside_pcl(benchmark::State& state) {
   if (frames().empty()) {
     state.SkipWithError("skipped: no recording 'redkitchen' under GEOMAP_DATA");
     return;
   }
-  std::vector<double> ours, pcl;
+  std::vector<double> organized, ransac, pcl;
   for (auto _ : state) {
     for (const RgbdFrame& frame : frames()) {
-      ours.push_back(milliseconds(extract, frame));
-      pcl.push_back(milliseconds(extract_by_pcl, frame));
+      organized.push_back(extract<geomap::perception::OrganizedExtractor>(frame));
+      ransac.push_back(extract<geomap::perception::RansacExtractor>(frame));
+      pcl.push_back(extract_by_pcl(frame));
     }
   }
   state.counters["frames"] = static_cast<double>(frames().size());
-  state.counters["ours_median_ms"] = quantile(ours, 0.5);
-  state.counters["ours_p95_ms"] = quantile(ours, 0.95);
-  state.counters["pcl_median_ms"] = quantile(pcl, 0.5);
+  state.counters["organized_ms"] = median(organized);
+  state.counters["organized_p95_ms"] = quantile(organized, 0.95);
+  state.counters["ransac_ms"] = median(ransac);
+  state.counters["ransac_p95_ms"] = quantile(ransac, 0.95);
+  state.counters["pcl_ms"] = median(pcl);
   state.counters["pcl_p95_ms"] = quantile(pcl, 0.95);
-  state.counters["pcl_over_ours"] = quantile(pcl, 0.5) / quantile(ours, 0.5);
+  state.counters["pcl_over_organized"] = median(pcl) / median(organized);
+  state.counters["pcl_over_ransac"] = median(pcl) / median(ransac);
 }
 BENCHMARK(extraction_beside_pcl)->Unit(benchmark::kMillisecond)->Iterations(3);
 
