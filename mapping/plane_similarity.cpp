@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "geometry/angles.hpp"
 #include "geometry/polygon_clip.hpp"
@@ -14,40 +13,29 @@ namespace geomap::mapping {
 namespace {
 
 using geometry::Plane;
-using geometry::PlaneFit;
 
 // A corner of a grown polygon may lie this many times the distance away from it.
 constexpr double kMitreLimit = 3.0;
 
-// How well a feature is known. A single view, however small, is taken to be as good as a view can
+// How well features are known. A single view, however small, is taken to be as good as a view can
 // be: that a small patch weighs little in a fusion does not make it likelier to belong anywhere.
-class Uncertainty {
- public:
-  Uncertainty(const MapFeature& feature, const MergeConfig& config)
-      : view_(view_variance(feature.moments, config)),
-        fit_(feature.moments.fit(Eigen::Vector3d::UnitZ())),
-        T_plane_world_(feature.surface.frame.T_plane_parent()) {}
+// Fits cost more than all other tests of a neighbour together, so they wait until one is asked for.
 
-  // Variance of one view's offset [m²].
-  double view() const { return view_; }
-  // Variance of the normal [rad²].
-  double angle() const {
-    if (!fit_) return 0.0;
-    const double sigma = fit_->sigma_angle();
-    return std::min(sigma * sigma, view_ / fit_->extent.y());
-  }
-  // Variance of the offset at a point of the world [m²].
-  double offset(const Eigen::Vector3d& at_world) const {
-    if (!fit_) return 0.0;
-    const double sigma = fit_->sigma_offset(T_plane_world_ * at_world);
-    return std::min(sigma * sigma, view_);
-  }
+// Variance of the normal [rad²]; `view` is that of one view's offset [m²].
+double angle_variance(const MapFeature& feature, double view) {
+  const auto fit = feature.moments.fit(Eigen::Vector3d::UnitZ());
+  if (!fit) return 0.0;
+  const double sigma = fit->sigma_angle();
+  return std::min(sigma * sigma, view / fit->extent.y());
+}
 
- private:
-  double view_;
-  std::optional<PlaneFit> fit_;
-  Eigen::Isometry3d T_plane_world_;
-};
+// Variance of the offset at a point of the world [m²].
+double offset_variance(const MapFeature& feature, double view, const Eigen::Vector3d& at_world) {
+  const auto fit = feature.moments.fit(Eigen::Vector3d::UnitZ());
+  if (!fit) return 0.0;
+  const double sigma = fit->sigma_offset(feature.surface.frame.T_plane_parent() * at_world);
+  return std::min(sigma * sigma, view);
+}
 
 // Height [m] of a plane above the point `at` of the frame it is given in.
 double height_at(const Plane& plane, const Eigen::Vector2d& at) {
@@ -97,6 +85,28 @@ double least_distance(const Plane& a, const Plane& b, const Eigen::AlignedBox2d&
   return std::max({lowest, -highest, 0.0});
 }
 
+// The gates below lie between fixed bounds, so that most pairs are decided without a fit.
+bool angles_agree(const MapFeature& a, double view_a, const MapFeature& b, double view_b,
+                  double angle, const MergeConfig& config) {
+  if (angle <= geometry::radians(config.min_angle_deg)) return true;
+  if (angle > geometry::radians(config.max_angle_deg)) return false;
+  return angle <= 3.0 * std::sqrt(angle_variance(a, view_a) + angle_variance(b, view_b));
+}
+
+bool distances_agree(const MapFeature& a, double view_a, const MapFeature& b, double view_b,
+                     double distance, const Eigen::Vector3d& where, const MergeConfig& config) {
+  if (distance <= config.min_distance) return true;
+  if (distance > config.max_distance) return false;
+  return distance <= 3.0 * std::sqrt(offset_variance(a, view_a, where) +
+                                     offset_variance(b, view_b, where) + view_a + view_b);
+}
+
+// The largest distance [m] that distances_agree() can grant.
+double largest_distance(double view_a, double view_b, const MergeConfig& config) {
+  return std::clamp(3.0 * std::sqrt(2.0 * (view_a + view_b)), config.min_distance,
+                    config.max_distance);
+}
+
 }  // namespace
 
 Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& config) {
@@ -109,12 +119,9 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
   }
 
   result.angle = geometry::angle_between(plane_a, plane_b);
-  const Uncertainty of_a(a, config);
-  const Uncertainty of_b(b, config);
-  const double angle_limit =
-      std::clamp(3.0 * std::sqrt(of_a.angle() + of_b.angle()),
-                 geometry::radians(config.min_angle_deg), geometry::radians(config.max_angle_deg));
-  if (result.angle > angle_limit) {
+  const double view_a = view_variance(a.moments, config);
+  const double view_b = view_variance(b.moments, config);
+  if (!angles_agree(a, view_a, b, view_b, result.angle, config)) {
     result.difference = Difference::kAngle;
     return result;
   }
@@ -134,7 +141,7 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
     result.difference = Difference::kOverlap;
     return result;
   }
-  if (least_distance(a_in_frame, b_in_frame, common) > config.max_distance) {
+  if (least_distance(a_in_frame, b_in_frame, common) > largest_distance(view_a, view_b, config)) {
     result.difference = Difference::kDistance;
     return result;
   }
@@ -154,10 +161,9 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
 
   result.distance = rms_distance(a_in_frame, b_in_frame, overlap);
   const Eigen::Vector3d where = a.surface.lift(overlap.centroid);
-  const double distance_limit = std::clamp(
-      3.0 * std::sqrt(of_a.offset(where) + of_b.offset(where) + of_a.view() + of_b.view()),
-      config.min_distance, config.max_distance);
-  if (result.distance > distance_limit) result.difference = Difference::kDistance;
+  if (!distances_agree(a, view_a, b, view_b, result.distance, where, config)) {
+    result.difference = Difference::kDistance;
+  }
   return result;
 }
 
