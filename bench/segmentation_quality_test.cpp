@@ -44,7 +44,7 @@ int two_halves(int u, int) { return u < 320 ? 0 : 1; }
 
 TEST(SegmentationQuality, HalfOfAWallLabelledIsHalfCoveredAndFlat) {
   const SegmentationQuality quality = measure(wall, left_half);
-  EXPECT_EQ(quality.valid(), kWidth * kHeight);
+  EXPECT_EQ(quality.bins[1].valid, kWidth * kHeight) << "1 m is in the bin that begins there";
   EXPECT_DOUBLE_EQ(quality.cover(), 0.5);
   EXPECT_EQ(quality.planes, 1);
   EXPECT_EQ(quality.blocks, 600);
