@@ -10,6 +10,7 @@
 #include "kitchen_frames.hpp"
 #include "label_sheet.hpp"
 #include "messaging/program.hpp"
+#include "perception/organized_extractor.hpp"
 #include "perception/ransac_extractor.hpp"
 #include "segmentation_quality.hpp"
 #include "statistics.hpp"
@@ -31,6 +32,8 @@ struct Candidate {
 
 std::vector<Candidate> candidates(const std::string& wanted, const messaging::Config& config) {
   std::vector<Candidate> all;
+  all.push_back({"organized", std::make_unique<perception::OrganizedExtractor>(
+                                  config.read<perception::OrganizedExtractorConfig>("organized"))});
   all.push_back({"ransac", std::make_unique<perception::RansacExtractor>(
                                config.read<perception::RansacExtractorConfig>("ransac"))});
   if (wanted != "all") std::erase_if(all, [&](auto& one) { return one.name != wanted; });

@@ -10,7 +10,7 @@
 
 #include "allocation_count.hpp"
 #include "mapping/geometric_map.hpp"
-#include "perception/ransac_extractor.hpp"
+#include "perception/organized_extractor.hpp"
 #include "perception/tracker.hpp"
 #include "posed_frames.hpp"
 #include "statistics.hpp"
@@ -56,7 +56,7 @@ class Mapping {
 
  private:
   perception::Tracker tracker_;
-  perception::RansacExtractor extractor_;
+  perception::OrganizedExtractor extractor_;
   mapping::GeometricMap map_{mapping::MergeConfig{}, mapping::HistoryConfig{}};
   std::vector<Stages> keyframes_;
 };
