@@ -72,7 +72,9 @@ void FeatureStore::erase(const FeatureId& id) {
   features_.erase(found);
 }
 
-std::vector<FeatureId> FeatureStore::near(const Eigen::AlignedBox3d& box, double reach) const {
+std::vector<FeatureId> FeatureStore::near(const geometry::PlanarPolygon& surface,
+                                          double reach) const {
+  const Eigen::AlignedBox3d box = surface.bounding_box();
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach);
   return index_.query(Eigen::AlignedBox3d(box.min() - margin, box.max() + margin));
 }

@@ -40,9 +40,9 @@ class FeatureStore {
   void put(MapFeature feature);
   void erase(const FeatureId& id);
 
-  /// @brief Ids of features whose bounding boxes come within `reach` [m] of a box of the world,
+  /// @brief Ids of features whose bounding boxes come within `reach` [m] of the surface's,
   /// ascending.
-  std::vector<FeatureId> near(const Eigen::AlignedBox3d& box, double reach) const;
+  std::vector<FeatureId> near(const geometry::PlanarPolygon& surface, double reach) const;
 
   /// @brief What changed since the last call; costs what was touched, not what the set holds.
   MapChange take_change();

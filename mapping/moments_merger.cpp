@@ -22,13 +22,13 @@ struct Search {
   std::int64_t candidates = 0;  // features that were looked at
 };
 
-// The feature of the map that shares most area with `feature`, of those that are the same surface
-// and come near `region`.
-Search find_partner(const MapFeature& feature, const Eigen::AlignedBox3d& region,
-                    const FeatureStore& store, const MergeConfig& config) {
+// The feature of the map that shares most area with `feature`, of those that are the same surface.
+Search find_partner(const MapFeature& feature, const FeatureStore& store,
+                    const MergeConfig& config) {
   Search search;
   std::optional<Partner>& best = search.partner;
-  for (const FeatureId& id : store.near(region, config.gap + config.max_distance)) {
+  const double reach = config.gap + config.max_distance;
+  for (const FeatureId& id : store.near(feature.surface, reach)) {
     ++search.candidates;
     const MapFeature& other = store.at(id);
     const bool other_is_older = other.id < feature.id;
@@ -51,26 +51,18 @@ MapFeature merge(MapFeature older, const MapFeature& younger, const geometry::Po
   return older;
 }
 
-const MapFeature& smaller_of(const MapFeature& a, const MapFeature& b) {
-  return geometry::area(a.surface.polygon) < geometry::area(b.surface.polygon) ? a : b;
-}
-
 }  // namespace
 
-// What a merge adds to the map is new to either of two features where the smaller one lies, so only
-// there can another feature have become a partner: the search costs what is new, not what is old.
 std::int64_t MomentsMerger::insert(MapFeature feature, FeatureStore& store) const {
-  Eigen::AlignedBox3d region = feature.surface.bounding_box();
-  std::int64_t candidates = 0;
-  for (bool is_first = true;; is_first = false) {
-    const Search search = find_partner(feature, region, store, config_);
-    candidates += search.candidates;
-    if (!search.partner) break;
+  Search search = find_partner(feature, store, config_);
+  std::int64_t candidates = search.candidates;
+  while (search.partner) {
     const MapFeature other = store.at(search.partner->id);
     store.erase(search.partner->id);
-    if (!is_first) region.extend(smaller_of(feature, other).surface.bounding_box());
     feature = other.id < feature.id ? merge(other, feature, search.partner->added, config_)
                                     : merge(feature, other, search.partner->added, config_);
+    search = find_partner(feature, store, config_);
+    candidates += search.candidates;
   }
   store.put(std::move(feature));
   return candidates;
