@@ -19,6 +19,12 @@ struct CellNormal {
   };
   Kind kind = Kind::kNone;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // unit, towards the camera
+
+  /// @brief False where the cell's own normal says that it is not on a plane with this one.
+  /// @param cosine of the largest angle between them
+  bool allows(const Eigen::Vector3d& of_plane, double cosine) const {
+    return kind != Kind::kPlanar || normal.dot(of_plane) >= cosine;
+  }
 };
 
 /// @brief One normal per cell, from the smallest window of cells that is large enough for a normal

@@ -27,6 +27,11 @@ struct ColumnSums {
   double *n, *nj, *njj, *q, *qj, *qq, *z, *zj, *zz, *zzj, *zzjj;
 };
 
+// 1 for a reading in range, else 0; without a branch, so that loops become vector code.
+inline int is_read(int reading, int nearest, int farthest) {
+  return static_cast<int>(reading >= nearest) & static_cast<int>(reading <= farthest);
+}
+
 // Readings in range, all four rows of a row of cells. Inverse depth is rounded to a float: a
 // thousandth of a reading's own rounding.
 GEOMAP_MULTIVERSION void sum_columns(const std::uint16_t* pixels, int stride, int width,
@@ -39,18 +44,14 @@ GEOMAP_MULTIVERSION void sum_columns(const std::uint16_t* pixels, int stride, in
   const std::uint16_t* __restrict row1 = row0 + stride;
   const std::uint16_t* __restrict row2 = row1 + stride;
   const std::uint16_t* __restrict row3 = row2 + stride;
-  const int low = nearest, high = farthest;
-  const auto is_read = [low, high](std::uint16_t mm) {
-    const int reading = mm;
-    return static_cast<float>(static_cast<int>(reading >= low) & static_cast<int>(reading <= high));
+  const auto count = [nearest, farthest](int reading) {
+    return static_cast<float>(is_read(reading, nearest, farthest));
   };
-  const auto divisor = [](std::uint16_t mm) {
-    const int reading = mm;
+  const auto divisor = [](int reading) {
     return static_cast<float>(reading + static_cast<int>(reading == 0));
   };
   for (int u = 0; u < width; ++u) {
-    const float n0 = is_read(row0[u]), n1 = is_read(row1[u]), n2 = is_read(row2[u]),
-                n3 = is_read(row3[u]);
+    const float n0 = count(row0[u]), n1 = count(row1[u]), n2 = count(row2[u]), n3 = count(row3[u]);
     const double q0 = 1000.0F / divisor(row0[u]) * n0, q1 = 1000.0F / divisor(row1[u]) * n1,
                  q2 = 1000.0F / divisor(row2[u]) * n2, q3 = 1000.0F / divisor(row3[u]) * n3;
     n[u] = n0 + n1 + n2 + n3;
@@ -72,11 +73,8 @@ GEOMAP_MULTIVERSION void sum_depth_columns(const std::uint16_t* pixels, int stri
   const std::uint16_t* __restrict row1 = row0 + stride;
   const std::uint16_t* __restrict row2 = row1 + stride;
   const std::uint16_t* __restrict row3 = row2 + stride;
-  const int low = nearest, high = farthest;
-  const auto depth = [low, high](std::uint16_t mm) {
-    const int reading = mm;
-    return 0.001 *
-           (reading * (static_cast<int>(reading >= low) & static_cast<int>(reading <= high)));
+  const auto depth = [nearest, farthest](int reading) {
+    return 0.001 * (reading * is_read(reading, nearest, farthest));
   };
   for (int u = 0; u < width; ++u) {
     const double z0 = depth(row0[u]), z1 = depth(row1[u]), z2 = depth(row2[u]), z3 = depth(row3[u]);

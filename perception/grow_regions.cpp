@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "perception/cell_means.hpp"
 #include "perception/plane_extractor.hpp"
@@ -13,10 +12,9 @@ namespace geomap::perception {
 namespace {
 
 constexpr std::size_t kLeastCells = 6;
-constexpr int kSeedReach = 3;                // of the normals that agree around a seed [cell]
-constexpr double kSeedCosine = 0.985;        // 10°
-constexpr double kRefitGrowth = 1.5;         // a region is fitted again when it has so much more
-constexpr std::size_t kMostRegions = 32000;  // labels have 16 bits
+constexpr int kSeedReach = 3;          // of the normals that agree around a seed [cell]
+constexpr double kSeedCosine = 0.985;  // 10°
+constexpr double kRefitGrowth = 1.5;   // a region is fitted again when it has so much more
 
 class Grower {
  public:
@@ -72,7 +70,7 @@ class Grower {
   }
 
   void grow(int seed) {
-    if (regions_.size() == kMostRegions) return;
+    if (regions_.size() == kMostPlanes) return;
     const auto number = static_cast<std::int16_t>(regions_.size());
     SurfaceRegion region;
     const CellMean& at = means_[static_cast<std::size_t>(seed)];
@@ -106,7 +104,10 @@ class Grower {
   void try_cell(int cell, std::int16_t number, SurfaceRegion& region) {
     if (!is_free(cell)) return;
     const auto i = static_cast<std::size_t>(cell);
-    if (!region.plane->holds(means_[i], normals_[i].normal, tolerance_, cosine_)) return;
+    if (!region.plane->is_near(means_[i], tolerance_) ||
+        !normals_[i].allows(region.plane->normal(), cosine_)) {
+      return;
+    }
     take(cell, number, region);
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -187,77 +188,98 @@ class Joiner {
   std::vector<int> joined_to_;
 };
 
-bool is_alone(const DepthCells& cells, int cell, const std::vector<std::int16_t>& label) {
-  const int column = cell % cells.columns(), row = cell / cells.columns();
-  for (int r = std::max(0, row - kAlone); r <= std::min(cells.rows() - 1, row + kAlone); ++r) {
-    for (int c = std::max(0, column - kAlone); c <= std::min(cells.columns() - 1, column + kAlone);
-         ++c) {
-      if (label[static_cast<std::size_t>(cells.index(c, r))] >= 0) return false;
+// Gives cells without a region to the planes they lie on.
+class Completer {
+ public:
+  Completer(const DepthCells& cells, const std::vector<CellMean>& means,
+            const std::vector<CellNormal>& normals, const DepthTolerance& tolerance,
+            double max_normal_angle, const std::vector<SurfaceRegion>& regions,
+            std::vector<std::int16_t>& label)
+      : cells_(cells),
+        means_(means),
+        normals_(normals),
+        tolerance_(tolerance),
+        cosine_(std::cos(max_normal_angle)),
+        regions_(regions),
+        label_(label) {}
+
+  // Cells beside a region, as at a border, where many have no normal of their own.
+  void extend() {
+    std::vector<std::pair<std::size_t, std::int16_t>> added;
+    for (int round = 0; round < kRounds; ++round) {
+      added.clear();
+      for (int row = 0; row < cells_.rows(); ++row) {
+        for (int column = 0; column < cells_.columns(); ++column) {
+          const auto cell = static_cast<std::size_t>(cells_.index(column, row));
+          const std::int16_t near = is_free(cell) ? neighbour(column, row) : kNoPlane;
+          if (near != kNoPlane) added.emplace_back(cell, near);
+        }
+      }
+      for (const auto& [cell, near] : added) label_[cell] = near;
     }
   }
-  return true;
-}
 
-// Parts of a plane may be too narrow, or too far from the rest, to be found by themselves: cells
-// that lie on a plane and have its normal, where no other plane is near.
-void claim_cells(const DepthCells& cells, const std::vector<CellMean>& means,
-                 const std::vector<CellNormal>& normals, const DepthTolerance& tolerance,
-                 double max_normal_angle, const std::vector<SurfaceRegion>& regions,
-                 std::vector<std::int16_t>& label) {
-  const std::vector<std::int16_t> known = label;
-  const double cosine = std::cos(max_normal_angle);
-  for (std::size_t cell = 0; cell < label.size(); ++cell) {
-    if (label[cell] >= 0 || normals[cell].kind != CellNormal::Kind::kPlanar ||
-        !is_alone(cells, static_cast<int>(cell), known)) {
-      continue;
-    }
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-      if (!regions[i].plane ||
-          !regions[i].plane->holds(means[cell], normals[cell].normal, tolerance, cosine)) {
+  // Parts of a plane may be too narrow, or too far from the rest, to be found by themselves: cells
+  // that lie on a plane and have its normal, where no other plane is near.
+  void claim() {
+    const std::vector<std::int16_t> known = label_;
+    for (std::size_t cell = 0; cell < label_.size(); ++cell) {
+      if (!is_free(cell) || normals_[cell].kind != CellNormal::Kind::kPlanar ||
+          !is_alone(static_cast<int>(cell), known)) {
         continue;
       }
-      label[cell] = static_cast<std::int16_t>(i);
-      break;
-    }
-  }
-}
-
-// Cells without a normal of their own, as beside a border, that lie on the plane next to them.
-void extend_regions(const DepthCells& cells, const std::vector<CellMean>& means,
-                    const std::vector<CellNormal>& normals, const DepthTolerance& tolerance,
-                    double max_normal_angle, const std::vector<SurfaceRegion>& regions,
-                    std::vector<std::int16_t>& label) {
-  const double cosine = std::cos(max_normal_angle);
-  const int columns = cells.columns(), size = cells.size();
-  std::vector<std::pair<int, std::int16_t>> added;
-  for (int round = 0; round < kRounds; ++round) {
-    added.clear();
-    for (int cell = 0; cell < size; ++cell) {
-      const auto i = static_cast<std::size_t>(cell);
-      if (label[i] >= 0 || !(means[i].q > 0.0F)) continue;
-      for (const int other : {cell - 1, cell + 1, cell - columns, cell + columns}) {
-        if (other < 0 || other >= size || label[static_cast<std::size_t>(other)] < 0) continue;
-        const std::int16_t near = label[static_cast<std::size_t>(other)];
-        const auto& plane = regions[static_cast<std::size_t>(near)].plane;
-        if (!plane) continue;
-        const bool has_normal = normals[i].kind == CellNormal::Kind::kPlanar;
-        const Eigen::Vector3d normal =
-            has_normal ? normals[i].normal : plane->plane().normal.eval();
-        if (!plane->holds(means[i], normal, tolerance, cosine)) continue;
-        added.emplace_back(cell, near);
-        break;
+      for (std::size_t i = 0; label_[cell] < 0 && i < regions_.size(); ++i) {
+        if (is_on(cell, i)) label_[cell] = static_cast<std::int16_t>(i);
       }
     }
-    for (const auto& [cell, near] : added) label[static_cast<std::size_t>(cell)] = near;
   }
-}
+
+ private:
+  bool is_free(std::size_t cell) const { return label_[cell] < 0 && means_[cell].q > 0.0F; }
+
+  bool is_on(std::size_t cell, std::size_t region) const {
+    const auto& plane = regions_[region].plane;
+    return plane && plane->is_near(means_[cell], tolerance_) &&
+           normals_[cell].allows(plane->normal(), cosine_);
+  }
+
+  // The region beside a cell on whose plane it lies, or kNoPlane.
+  std::int16_t neighbour(int column, int row) const {
+    constexpr std::array<std::array<int, 2>, 4> kBeside = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    const auto cell = static_cast<std::size_t>(cells_.index(column, row));
+    for (const auto& [dc, dr] : kBeside) {
+      const int c = column + dc, r = row + dr;
+      if (c < 0 || r < 0 || c >= cells_.columns() || r >= cells_.rows()) continue;
+      const std::int16_t near = label_[static_cast<std::size_t>(cells_.index(c, r))];
+      if (near >= 0 && is_on(cell, static_cast<std::size_t>(near))) return near;
+    }
+    return kNoPlane;
+  }
+
+  bool is_alone(int cell, const std::vector<std::int16_t>& label) const {
+    const int column = cell % cells_.columns(), row = cell / cells_.columns();
+    const int c_last = std::min(cells_.columns() - 1, column + kAlone);
+    for (int r = std::max(0, row - kAlone); r <= std::min(cells_.rows() - 1, row + kAlone); ++r) {
+      for (int c = std::max(0, column - kAlone); c <= c_last; ++c) {
+        if (label[static_cast<std::size_t>(cells_.index(c, r))] >= 0) return false;
+      }
+    }
+    return true;
+  }
+
+  const DepthCells& cells_;
+  const std::vector<CellMean>& means_;
+  const std::vector<CellNormal>& normals_;
+  const DepthTolerance& tolerance_;
+  double cosine_;
+  const std::vector<SurfaceRegion>& regions_;
+  std::vector<std::int16_t>& label_;
+};
 
 }  // namespace
 
-bool InversePlane::holds(const CellMean& mean, const Eigen::Vector3d& normal,
-                         const DepthTolerance& tolerance, double cosine) const {
-  const double allowed = mean.allowed + kMeanShare * tolerance.unevenness * mean.q * length;
-  return std::abs(off(mean)) <= allowed && -normal.dot(coefficients()) >= cosine * length;
+bool InversePlane::is_near(const CellMean& mean, const DepthTolerance& tolerance) const {
+  return std::abs(off(mean)) <= mean.allowed + kMeanShare * tolerance.unevenness * mean.q * length;
 }
 
 void SurfaceRegion::fit() {
@@ -281,8 +303,9 @@ CellRegions merge_regions(const DepthCells& cells, const std::vector<CellNormal>
   Joiner joiner(means, tolerance, max_merge_angle, regions, label);
   joiner.join_all(contacts);
   joiner.drop_made_up(contacts, cells);
-  extend_regions(cells, means, normals, tolerance, max_normal_angle, regions, label);
-  claim_cells(cells, means, normals, tolerance, max_normal_angle, regions, label);
+  Completer completer(cells, means, normals, tolerance, max_normal_angle, regions, label);
+  completer.extend();
+  completer.claim();
 
   CellRegions result;
   std::vector<std::int16_t> index(regions.size(), kNoPlane);

@@ -293,7 +293,7 @@ PixelLabeler::Candidates PixelLabeler::candidates_at(
   for (const bool agreeing : {true, false}) {
     for (std::size_t i = 0; i < distinct && found.count < kMostCandidates; ++i) {
       const ImagePlane& plane = planes[static_cast<std::size_t>(near[i])];
-      if (agrees(plane, own_cell) != agreeing) continue;
+      if (normals_[own_cell].allows(plane.normal, cosine_) != agreeing) continue;
       const auto at = static_cast<std::size_t>(found.count++);
       found.plane[at] = &plane;
       found.label[at] = near[i];
@@ -303,12 +303,6 @@ PixelLabeler::Candidates PixelLabeler::candidates_at(
     if (found.count == 0) break;
   }
   return found;
-}
-
-// False where the cell's own normal says otherwise.
-bool PixelLabeler::agrees(const ImagePlane& plane, std::size_t cell) const {
-  const CellNormal& normal = normals_[cell];
-  return normal.kind != CellNormal::Kind::kPlanar || normal.normal.dot(plane.normal) >= cosine_;
 }
 
 PixelLabeler::Readings PixelLabeler::read(int u_first, int v_first, int u_last, int v_last,

@@ -38,7 +38,6 @@ class PixelLabeler {
                    std::vector<std::int16_t>& labels) const;
   Candidates candidates_at(int column, int row, const std::vector<ImagePlane>& planes,
                            const std::vector<std::int16_t>& cell_label) const;
-  bool agrees(const ImagePlane& plane, std::size_t cell) const;
   Readings read(int u_first, int v_first, int u_last, int v_last, int step) const;
   std::int16_t& label_at(const Readings& readings, std::size_t i,
                          std::vector<std::int16_t>& labels) const;

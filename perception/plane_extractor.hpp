@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,6 +16,8 @@ namespace geomap::perception {
 
 /// @brief Label of a pixel or cell without a plane.
 inline constexpr std::int16_t kNoPlane = -1;
+/// @brief As many planes as labels can name.
+inline constexpr std::size_t kMostPlanes = std::numeric_limits<std::int16_t>::max();
 
 /// @brief The planes of one frame, camera frame, largest (by inliers) first.
 struct ExtractedPlanes {

@@ -49,6 +49,12 @@ CellSums sums_of_cell(const DepthCells& cells, int column, int row) {
           at(DepthCells::kZZXX),  at(DepthCells::kZZXY), at(DepthCells::kZZYY)};
 }
 
+Eigen::Matrix3d symmetric(double xx, double xy, double yy, double x, double y, double one) {
+  Eigen::Matrix3d matrix;
+  matrix << xx, xy, x, xy, yy, y, x, y, one;
+  return matrix;
+}
+
 class PartSummer {
  public:
   PartSummer(const geometry::RgbdFrame& frame, const DepthCells& cells,
@@ -62,7 +68,7 @@ class PartSummer {
         has_color_(frame.color.width == frame.depth.width &&
                    frame.color.height == frame.depth.height) {}
 
-  void add(const PlaneCell& cell, PartSums& sums) {
+  void add(const PlaneCell& cell, PartSums& sums) const {
     const CellSums s = cell.is_whole ? sums_of_cell(cells_, cell.cell % cells_.columns(),
                                                     cell.cell / cells_.columns())
                                      : sums_of_label(cell);
@@ -70,44 +76,14 @@ class PartSummer {
     geometry::PlaneMoments& m = sums.moments;
     m.weight += weight * s.n;
     m.first += weight * Eigen::Vector3d(s.zx, s.zy, s.z);
-    second_ += weight * Vector6(s.zzxx, s.zzxy, s.zzyy, s.zzx, s.zzy, s.zz);
-    noise_sums_ += Vector6(s.xx, s.xy, s.yy, s.x, s.y, s.n);
+    m.second += weight * symmetric(s.zzxx, s.zzxy, s.zzyy, s.zzx, s.zzy, s.zz);
+    m.noise += symmetric(s.xx, s.xy, s.yy, s.x, s.y, s.n);
     sums.pixels += cell.pixels;
     sums.points.push_back({Eigen::Vector3d(s.zx, s.zy, s.z) / s.n, s.n});
     if (has_color_) add_color(cell, sums);
   }
 
-  void finish(PartSums& sums) const {
-    sums.moments.second = second_.matrix();
-    sums.moments.noise = noise_sums_.matrix();
-  }
-
  private:
-  // xx, xy, yy, x, y, 1: the upper half of a symmetric matrix.
-  struct Vector6 {
-    double xx = 0, xy = 0, yy = 0, x = 0, y = 0, one = 0;
-    Vector6() = default;
-    Vector6(double a, double b, double c, double d, double e, double f)
-        : xx(a), xy(b), yy(c), x(d), y(e), one(f) {}
-    Vector6& operator+=(const Vector6& o) {
-      xx += o.xx;
-      xy += o.xy;
-      yy += o.yy;
-      x += o.x;
-      y += o.y;
-      one += o.one;
-      return *this;
-    }
-    friend Vector6 operator*(double f, const Vector6& v) {
-      return {f * v.xx, f * v.xy, f * v.yy, f * v.x, f * v.y, f * v.one};
-    }
-    Eigen::Matrix3d matrix() const {
-      Eigen::Matrix3d m;
-      m << xx, xy, x, xy, yy, y, x, y, one;
-      return m;
-    }
-  };
-
   bool is_own(int u, int v) const {
     return label_[static_cast<std::size_t>(v) * static_cast<std::size_t>(frame_.depth.width) +
                   static_cast<std::size_t>(u)] == plane_;
@@ -145,7 +121,6 @@ class PartSummer {
   const std::vector<std::int16_t>& label_;
   std::int16_t plane_;
   bool has_color_;
-  Vector6 second_, noise_sums_;
 };
 
 // The label that all pixels of a cell have, or kNoPlane where they differ.
@@ -218,9 +193,8 @@ PartSums sum_part(const geometry::RgbdFrame& frame, const DepthCells& cells,
                   std::int16_t plane, const PlanePart& part) {
   PartSums sums;
   sums.points.reserve(part.size());
-  PartSummer summer(frame, cells, noise, label, plane);
+  const PartSummer summer(frame, cells, noise, label, plane);
   for (const PlaneCell* cell : part) summer.add(*cell, sums);
-  summer.finish(sums);
   return sums;
 }
 

@@ -2,18 +2,13 @@
 #include "perception/ransac_extractor.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "geometry/angles.hpp"
 #include "geometry/polygon_simplify.hpp"
 #include "perception/euclidean_clusters.hpp"
+#include "perception/extract_surfaces.hpp"
 #include "perception/part_outline.hpp"
-#include "perception/pixel_labels.hpp"
-#include "perception/plane_observation.hpp"
-#include "perception/plane_parts.hpp"
-#include "perception/plane_pixels.hpp"
 #include "perception/plane_rays.hpp"
 #include "perception/ransac_planes.hpp"
 #include "perception/surface_region.hpp"
@@ -21,12 +16,6 @@
 
 namespace geomap::perception {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 using geometry::radians;
 
@@ -54,9 +43,6 @@ double even_density_depth(const RansacExtractorConfig& config,
   constexpr double kCellsOfVoxel = 0.43;
   return kCellsOfVoxel * config.voxel_size * std::min(camera.fx, camera.fy) / DepthCells::kSide;
 }
-
-// As many as labels of 16 bits can name.
-constexpr std::size_t kMostPlanes = std::numeric_limits<std::int16_t>::max();
 
 std::vector<VoxelPlane> find_planes(const RansacExtractorConfig& config, const VoxelCloud& cloud,
                                     double reference, const DepthTolerance& tolerance,
@@ -98,26 +84,18 @@ CellRegions find_regions(const RansacExtractorConfig& config, const geometry::Ca
                        std::move(regions), std::move(label));
 }
 
-// Paper: clustering of the inliers, concave hull.
-std::vector<FoundPart> outline_surfaces(const RansacExtractorConfig& config,
-                                        const geometry::RgbdFrame& frame, const DepthCells& cells,
-                                        const DepthTolerance& tolerance,
-                                        const std::vector<geometry::Plane>& planes,
-                                        const PlanePixels& pixels,
-                                        const std::optional<Eigen::Vector3d>& up_camera) {
+// Paper: concave hull.
+void outline(const RansacExtractorConfig& config, const geometry::RgbdFrame& frame,
+             const PlanePixels& pixels, std::vector<FoundPart>& found) {
   const geometry::CameraModel& camera = frame.depth_camera;
   const LabelImage image{pixels.label, frame.depth.width};
-  std::vector<FoundPart> found =
-      find_parts(config, frame, cells, tolerance, planes, pixels, up_camera);
-  std::erase_if(found, [&](FoundPart& f) {
+  for (FoundPart& f : found) {
     geometry::PlanarPolygon& surface = f.observation.surface;
     const Eigen::Vector2d centre = camera.project(surface.frame.origin);
     surface.polygon = geometry::simplify(
         part_outline(camera, surface.plane, surface.frame, image, f.surface, f.part, config.alpha),
         config.simplify_tolerance + pixel_length(camera, surface.plane, centre));
-    return !covers_enough(camera, f.observation, f.part, config);
-  });
-  return found;
+  }
 }
 
 }  // namespace
@@ -128,30 +106,17 @@ RansacExtractor::RansacExtractor(RansacExtractorConfig config) : config_(std::mo
 
 ExtractedPlanes RansacExtractor::extract(const geometry::RgbdFrame& frame, std::uint64_t seed,
                                          const std::optional<Eigen::Vector3d>& up_camera) const {
-  config_.require_valid(frame, up_camera);
-  ExtractedPlanes result;
-  if (frame.depth.empty()) return result;
-
-  const Clock::time_point start = Clock::now();
-  const DepthCells cells(frame.depth, frame.depth_camera, config_.min_depth, config_.max_depth);
-  const DepthTolerance tolerance = config_.tolerance_of(cells);
-  const auto normals = estimate_normals(cells, frame.depth_camera, tolerance);
-  const CellRegions regions =
-      find_regions(config_, frame.depth_camera, cells, normals, tolerance, seed);
-  const PixelLabeler labeler(frame, cells, normals, tolerance, config_.min_depth, config_.max_depth,
-                             radians(config_.max_normal_angle_deg));
-  const PlanePixels pixels = collect_pixels(
-      frame, cells, labeler.label(regions.planes, regions.cell_label), regions.planes.size());
-  result.noise = tolerance.noise;
-  result.extraction_seconds = seconds_since(start);
-
-  const Clock::time_point hull_start = Clock::now();
-  std::vector<FoundPart> found =
-      outline_surfaces(config_, frame, cells, tolerance, regions.planes, pixels, up_camera);
-  result.label = label_parts(found, pixels.label, frame.depth.width);
-  for (FoundPart& plane : found) result.planes.push_back(std::move(plane.observation));
-  result.hull_seconds = seconds_since(hull_start);
-  return result;
+  ExtractionSteps steps;
+  steps.max_normal_angle = [this](const DepthTolerance&) {
+    return radians(config_.max_normal_angle_deg);
+  };
+  steps.find_regions = [&](const DepthCells& cells, const std::vector<CellNormal>& normals,
+                           const DepthTolerance& tolerance) {
+    return find_regions(config_, frame.depth_camera, cells, normals, tolerance, seed);
+  };
+  steps.outline = [&](const PlanePixels& pixels, std::vector<FoundPart>& found,
+                      std::vector<std::int16_t>&) { outline(config_, frame, pixels, found); };
+  return extract_surfaces(config_, frame, up_camera, steps);
 }
 
 }  // namespace geomap::perception

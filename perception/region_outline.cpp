@@ -8,6 +8,7 @@
 
 #include "geometry/polygon_clip.hpp"
 #include "geometry/ring_contacts.hpp"
+#include "perception/label_rings.hpp"
 #include "perception/plane_extractor.hpp"
 #include "perception/plane_rays.hpp"
 
@@ -134,15 +135,14 @@ geometry::Polygon polygon_of(std::vector<geometry::Ring> rings, double largest_h
 
 }  // namespace
 
-void outline_regions(const geometry::RgbdFrame& frame, const OutlineSettings& settings,
-                     std::vector<std::int16_t>& label,
-                     std::vector<geometry::PlanarPolygon>& surfaces) {
+void outline_parts(const geometry::RgbdFrame& frame, const OutlineSettings& settings,
+                   std::vector<std::int16_t>& label, std::vector<FoundPart>& found) {
   const geometry::CameraModel& camera = frame.depth_camera;
-  std::vector<std::vector<geometry::Ring>> rings(surfaces.size());
-  std::vector<std::uint8_t> is_missed(surfaces.size(), 0);
+  std::vector<std::vector<geometry::Ring>> rings(found.size());
+  std::vector<std::uint8_t> is_missed(found.size(), 0);
   for (const LabelRing& ring : trace_labels(label, camera.width, camera.height)) {
     const auto of = static_cast<std::size_t>(ring.label);
-    const geometry::PlanarPolygon& surface = surfaces[of];
+    const geometry::PlanarPolygon& surface = found[of].observation.surface;
     if (ring.area < 0 && fill_hole(frame, ring, surface.plane, settings.max_hole_area, label)) {
       continue;
     }
@@ -160,9 +160,9 @@ void outline_regions(const geometry::RgbdFrame& frame, const OutlineSettings& se
       is_missed[of] = 1;
     }
   }
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    if (is_missed[i] == 0)
-      surfaces[i].polygon = polygon_of(std::move(rings[i]), settings.max_hole_area);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (is_missed[i] != 0) continue;
+    found[i].observation.surface.polygon = polygon_of(std::move(rings[i]), settings.max_hole_area);
   }
 }
 

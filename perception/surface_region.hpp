@@ -22,11 +22,11 @@ struct InversePlane {
     return {coefficients.x(), coefficients.y(), coefficients.z(), coefficients.norm()};
   }
   Eigen::Vector3d coefficients() const { return {a, b, c}; }
-  geometry::Plane plane() const { return {-coefficients() / length, 1.0 / length}; }
+  Eigen::Vector3d normal() const { return -coefficients() / length; }  // towards the camera
+  geometry::Plane plane() const { return {normal(), 1.0 / length}; }
   double off(const CellMean& mean) const { return mean.q - (a * mean.x + b * mean.y + c); }
-  /// @brief Whether a cell's mean is within tolerance of the plane, and its normal agrees.
-  bool holds(const CellMean& mean, const Eigen::Vector3d& normal, const DepthTolerance& tolerance,
-             double cosine) const;
+  /// @brief Whether a cell's mean is within tolerance of the plane.
+  bool is_near(const CellMean& mean, const DepthTolerance& tolerance) const;
 };
 
 /// @brief Cells of one plane.
