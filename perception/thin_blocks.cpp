@@ -11,8 +11,8 @@
 namespace geomap::perception {
 namespace {
 
-// Eight pixels. The extension is the same in g++ and clang, on any processor.
-using Lanes = std::uint16_t __attribute__((vector_size(16)));
+// The pixels of a block's row. The extension is the same in g++ and clang, on any processor.
+using Lanes = std::uint16_t __attribute__((vector_size(2 * kBlockLanes)));
 
 // Those of a block's row: its last lanes are the next block's.
 template <int step>

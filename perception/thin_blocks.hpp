@@ -18,10 +18,13 @@ struct BlockSum {
 /// at 70 degrees changes by 1.5 % over three pixels of a Kinect.
 constexpr int same_surface(int centre) { return 10 + centre / 64; }
 
+/// @brief Columns that are read from a block's first one on, whatever its width.
+inline constexpr int kBlockLanes = 8;
+
 /// @brief The same for `count` blocks of step x step pixels side by side, for the steps that occur:
 /// a row of a block is one register.
 /// @param centre of the first block; the next is `step` columns on. Every block lies in the image
-/// of `width` columns, and one column more.
+/// of `width` columns, and so do the kBlockLanes columns from its first one on.
 /// @return false for other steps; nothing is done.
 bool sum_blocks(const std::uint16_t* centre, int width, int step, int count, BlockSum* sums);
 

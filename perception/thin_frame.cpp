@@ -82,7 +82,8 @@ void sum_row(const geometry::DepthImage& depth, int v, int step, std::vector<Blo
   const int radius = step / 2, count = static_cast<int>(sums.size());
   int done = 0;
   if (v >= radius && v + radius < depth.height) {
-    const int whole = std::clamp((depth.width - 1) / step, 0, count);
+    const int spare = depth.width - kBlockLanes;  // columns on which a block may begin, less one
+    const int whole = spare < 0 ? 0 : std::min(spare / step + 1, count);
     const std::uint16_t* row =
         depth.millimetres.data() + static_cast<std::ptrdiff_t>(v) * depth.width;
     if (sum_blocks(row + radius, depth.width, step, whole, sums.data())) done = whole;
