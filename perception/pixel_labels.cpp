@@ -53,7 +53,9 @@ GEOMAP_MULTIVERSION float cost_of_nearer(const float* __restrict square_a,
   for (int block = 0; block < size; block += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const int i = block + lane;
-      sums[static_cast<std::size_t>(lane)] += depth_a[i] > depth_b[i] ? square_a[i] : square_b[i];
+      // Read before the choice: GCC 12 masks all of a block's loads for AVX2 by its first half.
+      const float a = square_a[i], b = square_b[i];
+      sums[static_cast<std::size_t>(lane)] += depth_a[i] > depth_b[i] ? a : b;
     }
   }
   float sum = 0.0F;
