@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "perception/extraction_digest.hpp"
+#include "perception/perception_digest.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
-#include <optional>
 #include <span>
 
 #include "drivers/image_file.hpp"
-#include "perception/extractor_choice.hpp"
+#include "geometry/frustum.hpp"
+#include "perception/frustum_icp.hpp"
+#include "perception/organized_extractor.hpp"
+#include "perception/point_map.hpp"
+#include "perception/ransac_extractor.hpp"
 #include "support/plane_renderer.hpp"
 #include "support/recordings.hpp"
 
@@ -84,7 +86,7 @@ void add(const geometry::PlanarPolygon& surface, Checksum& sum) {
   sum.add(std::array{surface.plane.d});
   for (const Eigen::Vector3d& vector :
        {surface.plane.normal, surface.frame.origin, surface.frame.x_axis, surface.frame.normal}) {
-    sum.add(std::array{vector.x(), vector.y(), vector.z()});
+    sum.add(std::span(vector.data(), 3));
   }
   for (const geometry::PolygonPart& part : surface.polygon.parts) {
     sum.add(part.outer);
@@ -104,24 +106,49 @@ std::uint64_t checksum(const perception::ExtractedPlanes& found) {
   return sum.value();
 }
 
+// A frame in a map with some correction of depth, then aligned to that map from beside its pose.
+std::uint64_t registration_checksum(const geometry::RgbdFrame& frame) {
+  perception::PointMap map;
+  map.set_depth_correction(
+      perception::DepthCorrection(perception::DepthCorrection::Terms::Constant(0.002)));
+  map.insert(1, frame, Eigen::Isometry3d::Identity());
+  const perception::FrameView view = map.view(frame);
+  const Eigen::Isometry3d beside(Eigen::Translation3d(0.02, -0.01, 0.015) *
+                                 Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitY()));
+  const geometry::Frustum seen(frame.depth_camera, 0.4, 5.0, beside);
+  const auto found =
+      perception::align(map.voxels().surfels_in(seen).surfels, view.surfaces, beside);
+  Checksum sum;
+  sum.add(view.corrected.depth.millimetres);
+  for (const perception::MapPoint& point : map.points()) {
+    sum.add(std::span(point.position.data(), 3));
+    sum.add(std::span(point.covariance.data(), 9));
+  }
+  sum.add(std::span(found.T_world_camera.data(), 16));
+  sum.add(std::array{found.rms, found.overlap, found.agreement, found.conditioning});
+  return sum.value();
+}
+
+std::string line(const std::string& what, const std::string& frame, std::uint64_t checksum) {
+  char hexadecimal[17];
+  std::snprintf(hexadecimal, sizeof hexadecimal, "%016llx",
+                static_cast<unsigned long long>(checksum));
+  return what + ", " + frame + ": " + hexadecimal;
+}
+
 }  // namespace
 
-std::vector<std::string> extraction_digest() {
+std::vector<std::string> perception_digest() {
   std::vector<NamedFrame> frames;
   add_rendered(frames);
   add_recorded(frames);
+  const perception::OrganizedExtractor organized;
+  const perception::RansacExtractor ransac;
   std::vector<std::string> lines;
-  for (const char* extractor : {"organized", "ransac"}) {
-    perception::PlaneExtractionConfig config;
-    config.choice.extractor = extractor;
-    const auto extract = perception::make_extractor(config);
-    for (const auto& [name, frame] : frames) {
-      const auto found = extract->extract(frame, 1, std::nullopt);
-      char result[64];
-      std::snprintf(result, sizeof result, ": %zu planes, %016llx", found.planes.size(),
-                    static_cast<unsigned long long>(checksum(found)));
-      lines.push_back(extractor + (" " + name) + result);
-    }
+  for (const auto& [name, frame] : frames) {
+    lines.push_back(line("organized", name, checksum(organized.extract(frame, 1, {}))));
+    lines.push_back(line("ransac", name, checksum(ransac.extract(frame, 1, {}))));
+    lines.push_back(line("registration", name, registration_checksum(frame)));
   }
   return lines;
 }
