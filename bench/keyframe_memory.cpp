@@ -4,24 +4,20 @@
 
 #include <array>
 #include <cstdio>
-#include <memory>
-#include <utility>
 #include <vector>
 
 #include "allocation_count.hpp"
-#include "mapping/geometric_map.hpp"
-#include "perception/organized_extractor.hpp"
-#include "perception/tracker.hpp"
 #include "posed_frames.hpp"
+#include "staged_mapping.hpp"
 #include "statistics.hpp"
 
 namespace {
 
 using namespace geomap;
 using bench::Allocations;
+using bench::kStages;
 
 constexpr std::size_t kWarmUp = 10;  // key frames
-constexpr std::array kStages = {"tracking", "extraction, outlines", "merging"};
 using Stages = std::array<Allocations, kStages.size()>;
 
 template <typename Work>
@@ -31,35 +27,19 @@ Allocations allocations_of(Work&& work) {
   return bench::allocations() - before;
 }
 
-// Tracking, planes and merging as the pipeline does them, with the recorded poses as odometry.
-class Mapping {
- public:
-  void add(const bench::PosedFrame& posed) {
-    const geometry::RgbdFrame& frame = posed.frame;
-    tracker_.prior().add_pose(frame.utime, posed.T_world_camera);
-    tracker_.prior().add_camera_to_body(frame.utime, Eigen::Isometry3d::Identity());
+// Of each key frame, with the recorded poses as odometry.
+std::vector<Stages> map_frames(const std::vector<bench::PosedFrame>& frames) {
+  bench::StagedMapping mapping;
+  std::vector<Stages> keyframes;
+  for (const bench::PosedFrame& posed : frames) {
     Stages stages;
-    perception::Tracked tracked;
-    stages[0] =
-        allocations_of([&] { tracked = tracker_.track(frame.utime, [&] { return &frame; }); });
-    if (tracked.status != perception::TrackStatus::kKeyframe) return;
-    auto seen = std::make_shared<mapping::Observation>();
-    seen->keyframe = frame.utime;
-    seen->T_world_camera = *tracked.T_world_camera;
-    const auto seed = static_cast<std::uint64_t>(frame.utime);
-    stages[1] = allocations_of([&] { seen->planes = extractor_.extract(frame, seed, {}).planes; });
-    stages[2] = allocations_of([&] { map_.apply(std::move(seen)); });
-    keyframes_.push_back(stages);
+    const auto meter = [&](std::size_t stage, const auto& work) {
+      stages[stage] = allocations_of(work);
+    };
+    if (mapping.add(posed.frame, posed.T_world_camera, meter)) keyframes.push_back(stages);
   }
-
-  const std::vector<Stages>& keyframes() const { return keyframes_; }
-
- private:
-  perception::Tracker tracker_;
-  perception::OrganizedExtractor extractor_;
-  mapping::GeometricMap map_{mapping::MergeConfig{}, mapping::HistoryConfig{}};
-  std::vector<Stages> keyframes_;
-};
+  return keyframes;
+}
 
 void print(const std::vector<Stages>& keyframes) {
   std::printf("%zu key frames, the first %zu of them left out; operator new, medians a key frame\n",
@@ -79,16 +59,12 @@ void print(const std::vector<Stages>& keyframes) {
 }  // namespace
 
 int main() {
-  Mapping mapping;
-  {
-    const std::vector<bench::PosedFrame> frames = bench::load_posed_kitchen(1);
-    if (frames.empty()) {
-      std::printf("skipped: no recording 'redkitchen' under GEOMAP_DATA\n");
-      return 0;
-    }
-    for (const bench::PosedFrame& posed : frames) mapping.add(posed);
+  const std::vector<bench::PosedFrame> frames = bench::load_posed_kitchen(1);
+  if (frames.empty()) {
+    std::printf("skipped: no recording 'redkitchen' under GEOMAP_DATA\n");
+    return 0;
   }
-  print(mapping.keyframes());
+  print(map_frames(frames));
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   std::printf("\npeak memory %.0f MB, the decoded recording of 307 MB included\n",

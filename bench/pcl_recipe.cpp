@@ -19,12 +19,7 @@ namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
-constexpr float kLeaf = 0.04F;              // [m]
-constexpr double kClusterTolerance = 0.06;  // [m]
-constexpr int kLeastPoints = 50;
 constexpr int kIterations = 100;
-constexpr double kPlaneThreshold = 0.04;  // [m]
-constexpr double kAlpha = 0.2;            // [m]
 
 Cloud::Ptr deproject(const geometry::RgbdFrame& frame) {
   const Cloud::Ptr cloud(new Cloud);
@@ -42,22 +37,23 @@ Cloud::Ptr deproject(const geometry::RgbdFrame& frame) {
   return cloud;
 }
 
-Cloud::Ptr thin(const Cloud::Ptr& cloud) {
+Cloud::Ptr thin(const Cloud::Ptr& cloud, float leaf) {
   const Cloud::Ptr thinned(new Cloud);
   pcl::VoxelGrid<pcl::PointXYZ> grid;
   grid.setInputCloud(cloud);
-  grid.setLeafSize(kLeaf, kLeaf, kLeaf);
+  grid.setLeafSize(leaf, leaf, leaf);
   grid.filter(*thinned);
   return thinned;
 }
 
-std::vector<pcl::PointIndices> clusters_of(const Cloud::Ptr& cloud) {
+std::vector<pcl::PointIndices> clusters_of(const Cloud::Ptr& cloud,
+                                           const PclRecipeSettings& settings) {
   const pcl::search::KdTree<pcl::PointXYZ>::Ptr tree(new pcl::search::KdTree<pcl::PointXYZ>);
   tree->setInputCloud(cloud);
   std::vector<pcl::PointIndices> clusters;
   pcl::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
-  extraction.setClusterTolerance(kClusterTolerance);
-  extraction.setMinClusterSize(kLeastPoints);
+  extraction.setClusterTolerance(settings.cluster_tolerance);
+  extraction.setMinClusterSize(settings.least_points);
   extraction.setSearchMethod(tree);
   extraction.setInputCloud(cloud);
   extraction.extract(clusters);
@@ -75,18 +71,18 @@ Cloud::Ptr part_of(const Cloud::Ptr& cloud, const pcl::PointIndices& indices, bo
 }
 
 void add_hulls(const Cloud::Ptr& inliers, const pcl::ModelCoefficients& plane,
-               PclRecipeResult& result) {
+               const PclRecipeSettings& settings, PclRecipeResult& result) {
   const Cloud::Ptr projected(new Cloud);
   pcl::ProjectInliers<pcl::PointXYZ> projection;
   projection.setModelType(pcl::SACMODEL_PLANE);
   projection.setInputCloud(inliers);
   projection.setModelCoefficients(pcl::ModelCoefficients::Ptr(new pcl::ModelCoefficients(plane)));
   projection.filter(*projected);
-  for (const pcl::PointIndices& part : clusters_of(projected)) {
+  for (const pcl::PointIndices& part : clusters_of(projected, settings)) {
     Cloud hull;
     pcl::ConcaveHull<pcl::PointXYZ> concave;
     concave.setInputCloud(part_of(projected, part, false));
-    concave.setAlpha(kAlpha);
+    concave.setAlpha(settings.alpha);
     concave.setDimension(2);
     concave.reconstruct(hull);
     ++result.planes;
@@ -96,24 +92,25 @@ void add_hulls(const Cloud::Ptr& inliers, const pcl::ModelCoefficients& plane,
 
 }  // namespace
 
-PclRecipeResult pcl_recipe(const geometry::RgbdFrame& frame) {
+PclRecipeResult pcl_recipe(const geometry::RgbdFrame& frame, const PclRecipeSettings& settings) {
+  const auto least_points = static_cast<std::size_t>(settings.least_points);
   PclRecipeResult result;
-  const Cloud::Ptr cloud = thin(deproject(frame));
-  for (const pcl::PointIndices& cluster : clusters_of(cloud)) {
+  const Cloud::Ptr cloud = thin(deproject(frame), settings.leaf);
+  for (const pcl::PointIndices& cluster : clusters_of(cloud, settings)) {
     Cloud::Ptr remaining = part_of(cloud, cluster, false);
-    while (remaining->size() >= kLeastPoints) {
+    while (remaining->size() >= least_points) {
       pcl::SACSegmentation<pcl::PointXYZ> segmentation;
       segmentation.setModelType(pcl::SACMODEL_PLANE);
       segmentation.setMethodType(pcl::SAC_RANSAC);
       segmentation.setOptimizeCoefficients(true);
       segmentation.setMaxIterations(kIterations);
-      segmentation.setDistanceThreshold(kPlaneThreshold);
+      segmentation.setDistanceThreshold(settings.plane_threshold);
       segmentation.setInputCloud(remaining);
       pcl::PointIndices inliers;
       pcl::ModelCoefficients plane;
       segmentation.segment(inliers, plane);
-      if (inliers.indices.size() < kLeastPoints) break;
-      add_hulls(part_of(remaining, inliers, false), plane, result);
+      if (inliers.indices.size() < least_points) break;
+      add_hulls(part_of(remaining, inliers, false), plane, settings, result);
       remaining = part_of(remaining, inliers, true);
     }
   }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <vector>
 
+#include "drivers/frame_source.hpp"
 #include "geometry/rgbd_frame.hpp"
 
 namespace geomap::bench {
@@ -13,8 +15,11 @@ struct PosedFrame {
   Eigen::Isometry3d T_world_camera;
 };
 
-/// @brief Every `step`-th of the first 500 frames of the recorded kitchen under GEOMAP_DATA with
-/// their recorded poses; empty where the recording is missing.
+/// @brief Hands out every `step`-th of the first 500 frames of the recorded kitchen under
+/// GEOMAP_DATA with its recorded pose; none where the recording is missing.
+void visit_kitchen(int step, const std::function<void(drivers::SourceFrame)>& visitor);
+
+/// @brief The same frames without their colour.
 std::vector<PosedFrame> load_posed_kitchen(int step);
 
 }  // namespace geomap::bench

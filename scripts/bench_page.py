@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes what scripts/bench measured between the marks of a Markdown file.
+
+RESULTS holds what the programs printed: facts.txt (one line each), keyframe_bench.json,
+extraction_quality.txt, keyframe_memory.txt, registration_pairs.txt and, if any, merging_growth.txt.
+"""
+import argparse
+import collections
+import dataclasses
+import json
+import pathlib
+import re
+import statistics
+
+BEGIN = "<!-- bench:begin -->"
+END = "<!-- bench:end -->"
+
+
+@dataclasses.dataclass
+class Figure:
+    """One row's value in one column; `by` says in words what is compared."""
+
+    by: str
+    value: float
+    text: str
+    more_is_better: bool = False
+
+
+@dataclasses.dataclass
+class Comparison:
+    """Rows that do the same, each a name and its figures; the first row is ours."""
+
+    title: str
+    remark: str
+    rows: list
+    has_ratio: bool = True
+
+
+# Title, remark, unit of time, what is counted, and the benchmarks with their names; the first is ours.
+COMPARISONS = [
+    ("Plane extraction with outlines", "a key frame", "ms", "planes", {
+        "extraction/organized": "geomap, `organized`",
+        "extraction/ransac": "geomap, `ransac`",
+        "extraction/pcl_recipe_4cm": "PCL recipe, 4 cm voxels",
+        "extraction/pcl_recipe_2cm": "PCL recipe, 2 cm voxels",
+        "extraction/pcl_omps": "PCL integral image normals, multi-plane segmentation",
+    }),
+    ("Outlines", "a key frame's planes; traced: from all pixels, by the clock; the others: from the pixels of "
+     "every fourth column and row of the same planes, alpha 5 cm", "ms", "vertices", {
+        "outlines/traced": "geomap, traced",
+        "outlines/alpha_hull": "geomap, alpha hull",
+        "outlines/pcl_concave_hull": "PCL ConcaveHull",
+        "outlines/cgal_alpha_shape_2": "CGAL Alpha_shape_2",
+    }),
+    ("Unions", "a plane and what the next key frame sees of it, operands converted before", "µs", "parts", {
+        "unions/geomap": "geomap",
+        "unions/cgal": "CGAL, exact",
+        "unions/boost": "Boost.Geometry, double",
+    }),
+    ("Merging", "a key frame, recorded poses; features: in the mean map", "ms", "features", {
+        "merging/moments": "geomap, by moments",
+        "merging/paper": "geomap, as the paper prints it",
+    }),
+]
+KEYFRAME = {
+    "keyframe/decoding": "decoding",
+    "keyframe/tracking": "registration and point map",
+    "keyframe/extraction": "planes and outlines",
+    "keyframe/merging": "merging",
+    "keyframe/decoded": "all but decoding",
+    "keyframe/all": "all",
+}
+
+
+def medians(report):
+    """Of each benchmark's counters over its repetitions."""
+    runs = collections.defaultdict(list)
+    for run in report["benchmarks"]:
+        if run["run_type"] == "iteration":
+            runs[re.match(r"[^/]+/[^/]+", run["name"])[0]].append(run)
+    return {name: {key: statistics.median(run[key] for run in repeated)
+                   for key in ("median_ms", "p95_ms", "found")}
+            for name, repeated in runs.items()}
+
+
+def number(value):
+    """Three digits, and never an exponent."""
+    decimals = 2 if abs(value) < 10 else 1 if abs(value) < 100 else 0
+    return f"{value:.{decimals}f}"
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|---" + "|--:" * (len(head) - 1) + "|"]
+    return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
+
+
+def timed(counters, unit):
+    scale = 1e3 if unit == "µs" else 1.0
+    return [Figure(f"{by} time", scale * counters[key], number(scale * counters[key]))
+            for by, key in (("median", "median_ms"), ("95th percentile of", "p95_ms"))]
+
+
+def comparisons_of_times(times):
+    for title, remark, unit, found, names in COMPARISONS:
+        rows = [(label, timed(times[name], unit)) for name, label in names.items()]
+        yield Comparison(title, remark, rows), unit, found, [times[name]["found"] for name in names]
+
+
+def write_times(comparison, unit, found, counts):
+    ours = comparison.rows[0][1][0].value
+    rows = [[label, *(figure.text for figure in figures), f"{figures[0].value / ours:.2f}", number(count)]
+            for (label, figures), count in zip(comparison.rows, counts)]
+    head = [comparison.title.lower(), f"median [{unit}]", f"95th percentile [{unit}]", "to ours", found]
+    return [f"### {comparison.title}", f"Of {comparison.remark}.", "", *table(head, rows)]
+
+
+REGISTRATION = [("error [cm]", "error"), ("95th percentile", "95th percentile of error"),
+                ("error [°]", "rotation error"), ("95th percentile", "95th percentile of rotation error"),
+                ("failed", "failures"), ("median [ms]", "median time"),
+                ("95th percentile [ms]", "95th percentile of time")]
+
+
+def registration(text):
+    """The lines `name runs error error degrees degrees failures time time ...`."""
+    rows = []
+    for line in text.splitlines():
+        row = re.match(r"(\S.*?)\s{2,}(\d+)" + r"\s+([\d.]+)" * len(REGISTRATION), line)
+        if row:
+            figures = [Figure(by, float(value), value)
+                       for (_, by), value in zip(REGISTRATION, row.groups()[2:])]
+            rows.append((row[1], figures))
+    return Comparison("Registration", "pairs of kitchen frames, started 5 cm and 3° off", rows)
+
+
+def write_registration(comparison):
+    ours = comparison.rows[0][1][5].value
+    rows = [[label, *(figure.text for figure in figures), f"{figures[5].value / ours:.2f}"]
+            for label, figures in comparison.rows]
+    head = ["registration", *(name for name, _ in REGISTRATION), "to ours"]
+    return [f"### {comparison.title}", f"Of {comparison.remark}.", "", *table(head, rows)]
+
+
+def labels(text):
+    """The first table of extraction_quality, without its times."""
+    lines = [[cell.strip() for cell in line.strip("|").split("|")]
+             for line in text.splitlines() if line.startswith("|")]
+    kinds = {"cover": True, "mismatch": False, "split": False, "rms": False}
+    columns = [(i, name) for i, name in enumerate(lines[0]) if name.split()[0] in kinds]
+    rows = []
+    for cells in lines[2:4]:
+        rows.append((cells[0], [Figure(name.split()[0], float(cells[i].split()[0]), cells[i],
+                                       kinds[name.split()[0]]) for i, name in columns]))
+    return Comparison("Labels", "the same frames by another extractor", rows)
+
+
+def worse(comparison):
+    """One line for each figure in which another row beats ours."""
+    our_name, ours = comparison.rows[0]
+    for name, figures in comparison.rows[1:]:
+        for own, other in zip(ours, figures):
+            better = other.value > own.value if own.more_is_better else other.value < own.value
+            if better:
+                yield (f"- {comparison.title}, {own.by}: {name} has {other.text}, "
+                       f"{our_name} {own.text}.")
+
+
+def page(results):
+    def read(name):
+        return (results / name).read_text()
+
+    times = medians(json.loads(read("keyframe_bench.json")))
+    timings = list(comparisons_of_times(times))
+    pairs = registration(read("registration_pairs.txt"))
+    quality = read("extraction_quality.txt")
+    lines = [*(f"- {fact}" for fact in read("facts.txt").splitlines()), ""]
+    lines += ["### A key frame", "Processor time over the kitchen's key frames.", ""]
+    lines += table(["step", "median [ms]", "95th percentile [ms]"],
+                   [[label, *(figure.text for figure in timed(times[name], "ms"))]
+                    for name, label in KEYFRAME.items()])
+    for timing in timings:
+        lines += write_times(*timing)
+    lines += write_registration(pairs)
+    lines += ["### Labels", quality.strip(), ""]
+    lines += ["### Memory", read("keyframe_memory.txt").strip(), ""]
+    if (results / "merging_growth.txt").exists():
+        lines += ["### Merging in a growing map", "```", read("merging_growth.txt").strip(), "```", ""]
+    lines += ["### Worse than others", "Every figure above in which another row beats the first.", ""]
+    compared = [timing[0] for timing in timings] + [pairs, labels(quality)]
+    lines += [line for comparison in compared for line in worse(comparison)] or ["- none"]
+    return "\n".join(lines)
+
+
+def replaced(document, block):
+    """The document with `block` between the marks."""
+    before, begin, rest = document.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        raise SystemExit(f"no marks {BEGIN} and {END} in the document")
+    return f"{before}{BEGIN}\n\n{block}\n\n{END}{after}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", type=pathlib.Path)
+    parser.add_argument("document", type=pathlib.Path)
+    arguments = parser.parse_args()
+    block = page(arguments.results)
+    arguments.document.write_text(replaced(arguments.document.read_text(), block))
+
+
+if __name__ == "__main__":
+    main()
