@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -44,9 +45,22 @@ Sample timed(Work&& work) {
   return sample;
 }
 
+void report(benchmark::State& state, const std::string& step,
+            const std::vector<double>& milliseconds) {
+  state.counters[step + "median_ms"] = bench::median(milliseconds);
+  state.counters[step + "p95_ms"] = bench::quantile(milliseconds, 0.95);
+}
+
+void add_run(const char* name, std::size_t count, std::function<void(benchmark::State&)> run) {
+  benchmark::RegisterBenchmark(name, std::move(run))
+      ->Iterations(static_cast<benchmark::IterationCount>(count))
+      ->UseManualTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
 /// One iteration is one input: `sample_of` is asked for 0 to count - 1, in this order.
 void add(const char* name, std::size_t count, std::function<Sample(std::size_t)> sample_of) {
-  const auto run = [sample_of = std::move(sample_of)](benchmark::State& state) {
+  add_run(name, count, [sample_of = std::move(sample_of)](benchmark::State& state) {
     std::vector<double> milliseconds;
     double found = 0.0;
     for (auto _ : state) {
@@ -55,14 +69,9 @@ void add(const char* name, std::size_t count, std::function<Sample(std::size_t)>
       milliseconds.push_back(sample.milliseconds);
       found += sample.found;
     }
-    state.counters["median_ms"] = bench::median(milliseconds);
-    state.counters["p95_ms"] = bench::quantile(milliseconds, 0.95);
+    report(state, "", milliseconds);
     state.counters["found"] = found / static_cast<double>(milliseconds.size());
-  };
-  benchmark::RegisterBenchmark(name, run)
-      ->Iterations(static_cast<benchmark::IterationCount>(count))
-      ->UseManualTime()
-      ->Unit(benchmark::kMillisecond);
+  });
 }
 
 void add_extraction(const BenchInputs& inputs) {
@@ -147,34 +156,32 @@ void add_merging(const BenchInputs& inputs) {
   add_mode("merging/paper", "paper");
 }
 
-/// Decoding, then a key frame's stages.
-using Steps = std::array<double, 1 + bench::kStages.size()>;  // [ms]
-
-/// From a log's message to the map; `steps` of it count.
-void add_keyframe(const char* name, const BenchInputs& inputs, std::vector<std::size_t> steps) {
-  std::shared_ptr<bench::StagedMapping> mapping;
-  add(name, inputs.messages.size(), [&inputs, steps, mapping](std::size_t i) mutable {
-    if (i == 0) mapping = std::make_shared<bench::StagedMapping>();
-    Steps times{};
-    messaging::FrameResult decoded;
-    times[0] = bench::milliseconds([&] { decoded = messaging::to_frame(inputs.messages[i]); });
-    mapping->add(*decoded.frame, inputs.frames[i].T_world_camera,
-                 [&times](std::size_t stage, const auto& work) {
-                   times[1 + stage] = bench::milliseconds(work);
-                 });
-    Sample sample;
-    for (const std::size_t step : steps) sample.milliseconds += times[step];
-    return sample;
-  });
-}
-
-void add_keyframes(const BenchInputs& inputs) {
-  add_keyframe("keyframe/decoding", inputs, {0});
-  add_keyframe("keyframe/tracking", inputs, {1});
-  add_keyframe("keyframe/extraction", inputs, {2});
-  add_keyframe("keyframe/merging", inputs, {3});
-  add_keyframe("keyframe/decoded", inputs, {1, 2, 3});
-  add_keyframe("keyframe/all", inputs, {0, 1, 2, 3});
+/// From a log's messages to the map, one key frame an iteration.
+void map_messages(const BenchInputs& inputs, benchmark::State& state) {
+  bench::StagedMapping mapping;
+  std::array<std::vector<double>, bench::kStages.size()> stages;
+  std::vector<double> decoding, decoded, all;
+  for (auto _ : state) {
+    const std::size_t i = all.size();
+    messaging::FrameResult frame;
+    decoding.push_back(
+        bench::milliseconds([&] { frame = messaging::to_frame(inputs.messages[i]); }));
+    double rest = 0.0;
+    mapping.add(*frame.frame, inputs.frames[i].T_world_camera,
+                [&](std::size_t stage, const auto& work) {
+                  stages[stage].push_back(bench::milliseconds(work));
+                  rest += stages[stage].back();
+                });
+    decoded.push_back(rest);
+    all.push_back(decoding.back() + rest);
+    state.SetIterationTime(1e-3 * all.back());
+  }
+  report(state, "decoding_", decoding);
+  report(state, "tracking_", stages[0]);
+  report(state, "extraction_", stages[1]);
+  report(state, "merging_", stages[2]);
+  report(state, "decoded_", decoded);
+  report(state, "all_", all);
 }
 
 }  // namespace
@@ -187,7 +194,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "keyframe_bench: no recording 'redkitchen' under GEOMAP_DATA\n");
     return 1;
   }
-  add_keyframes(inputs);
+  add_run("keyframe/all", inputs.messages.size(),
+          [&inputs](benchmark::State& state) { map_messages(inputs, state); });
   add_extraction(inputs);
   add_outlines(inputs);
   add_unions(inputs);

@@ -34,43 +34,56 @@ class Comparison:
     title: str
     remark: str
     rows: list
-    has_ratio: bool = True
 
 
-# Title, remark, unit of time, what is counted, and the benchmarks with their names; the first is ours.
+# Title, remark, unit of time, what is counted, and the benchmarks with their names, ours first.
 COMPARISONS = [
-    ("Plane extraction with outlines", "a key frame", "ms", "planes", {
+    ("Plane extraction with outlines", "A key frame.", "ms", "planes", {
         "extraction/organized": "geomap, `organized`",
         "extraction/ransac": "geomap, `ransac`",
         "extraction/pcl_recipe_4cm": "PCL recipe, 4 cm voxels",
         "extraction/pcl_recipe_2cm": "PCL recipe, 2 cm voxels",
         "extraction/pcl_omps": "PCL integral image normals, multi-plane segmentation",
     }),
-    ("Outlines", "a key frame's planes; traced: from all pixels, by the clock; the others: from the pixels of "
-     "every fourth column and row of the same planes, alpha 5 cm", "ms", "vertices", {
+    ("Outlines", "A key frame's planes. Traced: from all pixels, by the clock. The others: from the "
+     "pixels of every fourth column and row, alpha 5 cm.", "ms", "vertices", {
         "outlines/traced": "geomap, traced",
         "outlines/alpha_hull": "geomap, alpha hull",
         "outlines/pcl_concave_hull": "PCL ConcaveHull",
         "outlines/cgal_alpha_shape_2": "CGAL Alpha_shape_2",
     }),
-    ("Unions", "a plane and what the next key frame sees of it, operands converted before", "µs", "parts", {
+    ("Unions", "A plane and what the next key frame sees of it; operands are converted before.",
+     "µs", "parts", {
         "unions/geomap": "geomap",
         "unions/cgal": "CGAL, exact",
         "unions/boost": "Boost.Geometry, double",
     }),
-    ("Merging", "a key frame, recorded poses; features: in the mean map", "ms", "features", {
+    ("Merging", "A key frame with its recorded pose. Features: of the map, in the mean.", "ms", "features", {
         "merging/moments": "geomap, by moments",
         "merging/paper": "geomap, as the paper prints it",
     }),
 ]
+# Prefix of keyframe/all's counters, and what it is.
 KEYFRAME = {
-    "keyframe/decoding": "decoding",
-    "keyframe/tracking": "registration and point map",
-    "keyframe/extraction": "planes and outlines",
-    "keyframe/merging": "merging",
-    "keyframe/decoded": "all but decoding",
-    "keyframe/all": "all",
+    "decoding_": "decoding",
+    "tracking_": "registration and point map",
+    "extraction_": "planes and outlines",
+    "merging_": "merging",
+    "decoded_": "all but decoding",
+    "all_": "all",
 }
+# Column, and what it compares in words; as registration_bench prints them.
+REGISTRATION = [
+    ("error [cm]", "error"),
+    ("95th percentile", "95th percentile of error"),
+    ("error [°]", "rotation error"),
+    ("95th percentile", "95th percentile of rotation error"),
+    ("failed", "failures"),
+    ("median [ms]", "median time"),
+    ("95th percentile [ms]", "95th percentile of time"),
+]
+# Column of extraction_quality, and whether more of it is better.
+LABELS = {"cover": True, "mismatch": False, "split": False, "rms": False}
 
 
 def medians(report):
@@ -80,7 +93,7 @@ def medians(report):
         if run["run_type"] == "iteration":
             runs[re.match(r"[^/]+/[^/]+", run["name"])[0]].append(run)
     return {name: {key: statistics.median(run[key] for run in repeated)
-                   for key in ("median_ms", "p95_ms", "found")}
+                   for key in repeated[0] if key.endswith("_ms") or key == "found"}
             for name, repeated in runs.items()}
 
 
@@ -95,30 +108,37 @@ def table(head, rows):
     return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
 
 
-def timed(counters, unit):
+def timed(counters, unit, step=""):
     scale = 1e3 if unit == "µs" else 1.0
-    return [Figure(f"{by} time", scale * counters[key], number(scale * counters[key]))
-            for by, key in (("median", "median_ms"), ("95th percentile of", "p95_ms"))]
+    return [Figure(by, scale * counters[step + key], number(scale * counters[step + key]))
+            for by, key in (("median time", "median_ms"), ("95th percentile of time", "p95_ms"))]
 
 
-def comparisons_of_times(times):
+def texts(figures):
+    return [figure.text for figure in figures]
+
+
+def write_keyframe(counters):
+    rows = [[label, *texts(timed(counters, "ms", step))]
+            for step, label in KEYFRAME.items()]
+    return ["### A key frame", "From the message of a log to the map.", "",
+            *table(["step", "median [ms]", "95th percentile [ms]"], rows)]
+
+
+def timings_in(times):
+    """Each comparison of times with its unit, what it counts, and how many of them."""
     for title, remark, unit, found, names in COMPARISONS:
         rows = [(label, timed(times[name], unit)) for name, label in names.items()]
-        yield Comparison(title, remark, rows), unit, found, [times[name]["found"] for name in names]
+        counts = [times[name]["found"] for name in names]
+        yield Comparison(title, remark, rows), unit, found, counts
 
 
 def write_times(comparison, unit, found, counts):
     ours = comparison.rows[0][1][0].value
-    rows = [[label, *(figure.text for figure in figures), f"{figures[0].value / ours:.2f}", number(count)]
+    rows = [[label, *texts(figures), f"{figures[0].value / ours:.2f}", number(count)]
             for (label, figures), count in zip(comparison.rows, counts)]
-    head = [comparison.title.lower(), f"median [{unit}]", f"95th percentile [{unit}]", "to ours", found]
-    return [f"### {comparison.title}", f"Of {comparison.remark}.", "", *table(head, rows)]
-
-
-REGISTRATION = [("error [cm]", "error"), ("95th percentile", "95th percentile of error"),
-                ("error [°]", "rotation error"), ("95th percentile", "95th percentile of rotation error"),
-                ("failed", "failures"), ("median [ms]", "median time"),
-                ("95th percentile [ms]", "95th percentile of time")]
+    head = ["", f"median [{unit}]", f"95th percentile [{unit}]", "to ours", found]
+    return [f"### {comparison.title}", comparison.remark, "", *table(head, rows)]
 
 
 def registration(text):
@@ -130,34 +150,43 @@ def registration(text):
             figures = [Figure(by, float(value), value)
                        for (_, by), value in zip(REGISTRATION, row.groups()[2:])]
             rows.append((row[1], figures))
-    return Comparison("Registration", "pairs of kitchen frames, started 5 cm and 3° off", rows)
+    return Comparison("Registration", "Pairs of kitchen frames, started 5 cm and 3° off.", rows)
 
 
 def write_registration(comparison):
     ours = comparison.rows[0][1][5].value
-    rows = [[label, *(figure.text for figure in figures), f"{figures[5].value / ours:.2f}"]
+    rows = [[label, *texts(figures), f"{figures[5].value / ours:.2f}"]
             for label, figures in comparison.rows]
-    head = ["registration", *(name for name, _ in REGISTRATION), "to ours"]
-    return [f"### {comparison.title}", f"Of {comparison.remark}.", "", *table(head, rows)]
+    head = ["", *(name for name, _ in REGISTRATION), "to ours"]
+    return [f"### {comparison.title}", comparison.remark, "", *table(head, rows)]
+
+
+def tables_in(text):
+    """Cells of each Markdown table, without the rulers."""
+    for block in re.findall(r"(?:^\|.*\n?)+", text, re.MULTILINE):
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in block.splitlines()]
+        yield rows[0], rows[2:]
 
 
 def labels(text):
-    """The first table of extraction_quality, without its times."""
-    lines = [[cell.strip() for cell in line.strip("|").split("|")]
-             for line in text.splitlines() if line.startswith("|")]
-    kinds = {"cover": True, "mismatch": False, "split": False, "rms": False}
-    columns = [(i, name) for i, name in enumerate(lines[0]) if name.split()[0] in kinds]
-    rows = []
-    for cells in lines[2:4]:
-        rows.append((cells[0], [Figure(name.split()[0], float(cells[i].split()[0]), cells[i],
-                                       kinds[name.split()[0]]) for i, name in columns]))
-    return Comparison("Labels", "the same frames by another extractor", rows)
+    """The extractors in the tables of extraction_quality, without their times."""
+    (head, by_extractor), (depths, by_depth) = tables_in(text)
+    kinds = [name.split()[0] for name in head]
+    rows = {cells[0]: [Figure(kind, float(cell.split()[0]), cell, LABELS[kind])
+                       for kind, cell in zip(kinds, cells) if kind in LABELS]
+            for cells in by_extractor}
+    for cells in by_depth:
+        rows.get(cells[0], []).extend(Figure(f"cover % at {depth}", float(cell), cell, True)
+                                      for depth, cell in zip(depths[1:], cells[1:]))
+    return Comparison("Labels", "The same frames by another extractor.", list(rows.items()))
 
 
 def worse(comparison):
-    """One line for each figure in which another row beats ours."""
+    """One line for each figure in which another row beats ours; a row that bears our name and more
+    is a variant of ours."""
     our_name, ours = comparison.rows[0]
-    for name, figures in comparison.rows[1:]:
+    others = [row for row in comparison.rows if not row[0].startswith(our_name)]
+    for name, figures in others:
         for own, other in zip(ours, figures):
             better = other.value > own.value if own.more_is_better else other.value < own.value
             if better:
@@ -170,22 +199,21 @@ def page(results):
         return (results / name).read_text()
 
     times = medians(json.loads(read("keyframe_bench.json")))
-    timings = list(comparisons_of_times(times))
+    timings = list(timings_in(times))
     pairs = registration(read("registration_pairs.txt"))
-    quality = read("extraction_quality.txt")
+    quality = "\n".join(line for line in read("extraction_quality.txt").splitlines()
+                        if "labels.png" not in line)
     lines = [*(f"- {fact}" for fact in read("facts.txt").splitlines()), ""]
-    lines += ["### A key frame", "Processor time over the kitchen's key frames.", ""]
-    lines += table(["step", "median [ms]", "95th percentile [ms]"],
-                   [[label, *(figure.text for figure in timed(times[name], "ms"))]
-                    for name, label in KEYFRAME.items()])
+    lines += write_keyframe(times["keyframe/all"])
     for timing in timings:
         lines += write_times(*timing)
     lines += write_registration(pairs)
     lines += ["### Labels", quality.strip(), ""]
     lines += ["### Memory", read("keyframe_memory.txt").strip(), ""]
     if (results / "merging_growth.txt").exists():
-        lines += ["### Merging in a growing map", "```", read("merging_growth.txt").strip(), "```", ""]
-    lines += ["### Worse than others", "Every figure above in which another row beats the first.", ""]
+        lines += ["### Merging in a growing map", read("merging_growth.txt").strip(), ""]
+    lines += ["### Worse than others", "Every figure above in which another row beats the first; geomap's "
+              "own second ways count as others.", ""]
     compared = [timing[0] for timing in timings] + [pairs, labels(quality)]
     lines += [line for comparison in compared for line in worse(comparison)] or ["- none"]
     return "\n".join(lines)
