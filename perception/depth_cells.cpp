@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "geometry/multiversion.hpp"
 
@@ -193,7 +194,8 @@ DepthCells::DepthCells(const geometry::DepthImage& depth, const geometry::Camera
                        double near, double far)
     : columns_((depth.width + kSide - 1) / kSide),
       rows_((depth.height + kSide - 1) / kSide),
-      sums_(static_cast<std::size_t>(columns_ * rows_ * kSums)) {
+      sums_(std::make_unique_for_overwrite<double[]>(
+          static_cast<std::size_t>(columns_ * rows_ * kSums))) {
   const auto [nearest, farthest] = readings_between(near, far);
   const int width = columns_ * kSide;
   ColumnSums columns(width);
@@ -216,7 +218,7 @@ DepthCells::DepthCells(const geometry::DepthImage& depth, const geometry::Camera
                 columns.q, columns.qj, columns.qq);
     sum_depth_columns(pixels, stride, width, nearest, farthest, columns.z, columns.zj, columns.zz,
                       columns.zzj, columns.zzjj);
-    double* cells = sums_.data() + static_cast<std::ptrdiff_t>(r * kSums) * columns_;
+    double* cells = sums_.get() + static_cast<std::ptrdiff_t>(r * kSums) * columns_;
     const double x_first = -camera.cx / camera.fx, y_first = (r * kSide - camera.cy) / camera.fy;
     fold_columns(columns.n, columns.nj, columns.njj, columns.q, columns.qj, columns.qq, columns_,
                  x_first, y_first, 1.0 / camera.fx, 1.0 / camera.fy, cells);

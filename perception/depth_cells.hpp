@@ -2,8 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
-#include <vector>
 
 #include "geometry/camera_model.hpp"
 #include "geometry/plane.hpp"
@@ -92,7 +92,7 @@ class DepthCells {
 
   /// @brief One of the sums of all cells of a row.
   const double* row(int r, Sum sum) const {
-    return sums_.data() + static_cast<std::ptrdiff_t>(r * kSums + sum) * columns_;
+    return sums_.get() + static_cast<std::ptrdiff_t>(r * kSums + sum) * columns_;
   }
 
   /// @brief Sums over the cells of columns [c0, c1) and rows [r0, r1), cut off at the border.
@@ -101,7 +101,7 @@ class DepthCells {
  private:
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<double> sums_;  // rows x kSums x columns
+  std::unique_ptr<double[]> sums_;  // rows x kSums x columns
 };
 
 }  // namespace geomap::perception

@@ -21,15 +21,15 @@ std::vector<geometry::PlaneObservation> take_covered(const ExtractionConfig& con
                                                      std::vector<FoundPart> found,
                                                      std::vector<std::int16_t>& label) {
   std::vector<geometry::PlaneObservation> planes;
-  std::vector<std::int16_t> number(found.size(), kNoPlane);
+  std::vector<std::int16_t> number(found.size() + 1, kNoPlane);  // kNoPlane keeps its own
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (!covers_enough(camera, found[i].observation, found[i].part, config)) continue;
-    number[i] = static_cast<std::int16_t>(planes.size());
+    number[i + 1] = static_cast<std::int16_t>(planes.size());
     planes.push_back(std::move(found[i].observation));
   }
-  for (std::int16_t& l : label) {
-    if (l != kNoPlane) l = number[static_cast<std::size_t>(l)];
-  }
+  if (planes.size() == found.size()) return planes;
+  static_assert(kNoPlane == -1);
+  for (std::int16_t& l : label) l = number[static_cast<std::size_t>(l + 1)];
   return planes;
 }
 
@@ -48,10 +48,11 @@ ExtractedPlanes extract_surfaces(const ExtractionConfig& config, const geometry:
   const DepthTolerance tolerance = config.tolerance_of(cells);
   const std::vector<CellNormal> normals = estimate_normals(cells, camera, tolerance);
   const CellRegions regions = steps.find_regions(cells, normals, tolerance);
-  const PixelLabeler labeler(frame, cells, normals, tolerance, config.min_depth, config.max_depth,
-                             steps.max_normal_angle(tolerance));
   const PlanePixels pixels = collect_pixels(
-      frame, cells, labeler.label(regions.planes, regions.cell_label), regions.planes.size());
+      frame, cells,
+      label_pixels(frame, cells, normals, tolerance, regions,
+                   {config.min_depth, config.max_depth, steps.max_normal_angle(tolerance)}),
+      regions.planes.size());
   std::vector<FoundPart> found =
       find_parts(config, frame, cells, tolerance, regions.planes, pixels, up_camera);
   result.noise = tolerance.noise;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "geometry/multiversion.hpp"
 #include "perception/plane_extractor.hpp"
 #include "perception/surface_region.hpp"
 
@@ -34,22 +35,37 @@ constexpr double kFarOff = 16.0;
 
 using Contacts = std::map<std::pair<int, int>, int>;  // pairs of regions, smaller index first
 
+// Where two cells are of different regions.
+GEOMAP_MULTIVERSION void find_contacts(const std::int16_t* __restrict a,
+                                       const std::int16_t* __restrict b, int size,
+                                       std::uint8_t* __restrict is_contact) {
+  for (int i = 0; i < size; ++i) {
+    is_contact[i] = static_cast<std::uint8_t>(
+        static_cast<int>(a[i] >= 0) & static_cast<int>(b[i] >= 0) & static_cast<int>(a[i] != b[i]));
+  }
+}
+
 Contacts count_contacts(const DepthCells& cells, const std::vector<std::int16_t>& label) {
   Contacts contacts;
-  const int columns = cells.columns(), rows = cells.rows();
-  const auto look = [&](std::int16_t own, int c, int r) {
-    const std::int16_t other = label[static_cast<std::size_t>(r * columns + c)];
-    if (other >= 0 && other != own) ++contacts[std::minmax<int>(own, other)];
-  };
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < columns; ++c) {
-      const std::int16_t own = label[static_cast<std::size_t>(r * columns + c)];
-      if (own < 0) continue;
-      for (int step = 1; step <= kReach; ++step) {
-        if (c + step < columns) look(own, c + step, r);
-        if (r + step < rows) look(own, c, r + step);
-      }
+  Contacts::iterator last = contacts.end();  // along a border it is the same pair again and again
+  std::vector<std::uint8_t> is_contact(label.size());
+  const auto count = [&](const std::int16_t* a, const std::int16_t* b, int size) {
+    find_contacts(a, b, size, is_contact.data());
+    const auto end = is_contact.begin() + std::max(0, size);
+    for (auto at = is_contact.begin(); (at = std::find(at, end, std::uint8_t{1})) < end; ++at) {
+      const std::ptrdiff_t i = at - is_contact.begin();
+      const std::pair<int, int> pair = std::minmax<int>(a[i], b[i]);
+      if (last == contacts.end() || last->first != pair) last = contacts.try_emplace(pair, 0).first;
+      ++last->second;
     }
+  };
+  const int columns = cells.columns(), rows = cells.rows();
+  for (int step = 1; step <= kReach; ++step) {
+    for (int r = 0; r < rows; ++r) {
+      const std::int16_t* row = label.data() + cells.index(0, r);
+      count(row, row + step, columns - step);
+    }
+    count(label.data(), label.data() + cells.index(0, step), (rows - step) * columns);
   }
   return contacts;
 }
@@ -205,17 +221,20 @@ class Completer {
 
   // Cells beside a region, as at a border, where many have no normal of their own.
   void extend() {
-    std::vector<std::pair<std::size_t, std::int16_t>> added;
+    std::vector<int> open;  // cells that may have become a region's neighbours
+    for (int cell = 0; cell < cells_.size(); ++cell) open.push_back(cell);
+    std::vector<std::pair<int, std::int16_t>> added;
     for (int round = 0; round < kRounds; ++round) {
       added.clear();
-      for (int row = 0; row < cells_.rows(); ++row) {
-        for (int column = 0; column < cells_.columns(); ++column) {
-          const auto cell = static_cast<std::size_t>(cells_.index(column, row));
-          const std::int16_t near = is_free(cell) ? neighbour(column, row) : kNoPlane;
-          if (near != kNoPlane) added.emplace_back(cell, near);
-        }
+      for (const int cell : open) {
+        const std::int16_t near = is_free(cell) ? neighbour(cell) : kNoPlane;
+        if (near != kNoPlane) added.emplace_back(cell, near);
       }
-      for (const auto& [cell, near] : added) label_[cell] = near;
+      open.clear();
+      for (const auto& [cell, near] : added) {
+        label_[static_cast<std::size_t>(cell)] = near;
+        visit_beside(cell, [&open](int beside) { open.push_back(beside); });
+      }
     }
   }
 
@@ -223,37 +242,49 @@ class Completer {
   // that lie on a plane and have its normal, where no other plane is near.
   void claim() {
     const std::vector<std::int16_t> known = label_;
-    for (std::size_t cell = 0; cell < label_.size(); ++cell) {
-      if (!is_free(cell) || normals_[cell].kind != CellNormal::Kind::kPlanar ||
-          !is_alone(static_cast<int>(cell), known)) {
+    for (int cell = 0; cell < cells_.size(); ++cell) {
+      const auto at = static_cast<std::size_t>(cell);
+      if (!is_free(cell) || normals_[at].kind != CellNormal::Kind::kPlanar ||
+          !is_alone(cell, known)) {
         continue;
       }
-      for (std::size_t i = 0; label_[cell] < 0 && i < regions_.size(); ++i) {
-        if (is_on(cell, i)) label_[cell] = static_cast<std::int16_t>(i);
+      for (std::size_t i = 0; label_[at] < 0 && i < regions_.size(); ++i) {
+        if (is_on(cell, i)) label_[at] = static_cast<std::int16_t>(i);
       }
     }
   }
 
  private:
-  bool is_free(std::size_t cell) const { return label_[cell] < 0 && means_[cell].q > 0.0F; }
+  bool is_free(int cell) const {
+    const auto at = static_cast<std::size_t>(cell);
+    return label_[at] < 0 && means_[at].q > 0.0F;
+  }
 
-  bool is_on(std::size_t cell, std::size_t region) const {
+  bool is_on(int cell, std::size_t region) const {
+    const auto at = static_cast<std::size_t>(cell);
     const auto& plane = regions_[region].plane;
-    return plane && plane->is_near(means_[cell], tolerance_) &&
-           normals_[cell].allows(plane->normal(), cosine_);
+    return plane && plane->is_near(means_[at], tolerance_) &&
+           normals_[at].allows(plane->normal(), cosine_);
+  }
+
+  // Calls visitor(cell) for those on the left, on the right, above, and below.
+  template <typename Visitor>
+  void visit_beside(int cell, Visitor&& visitor) const {
+    const int columns = cells_.columns(), column = cell % columns;
+    if (column > 0) visitor(cell - 1);
+    if (column + 1 < columns) visitor(cell + 1);
+    if (cell >= columns) visitor(cell - columns);
+    if (cell + columns < cells_.size()) visitor(cell + columns);
   }
 
   // The region beside a cell on whose plane it lies, or kNoPlane.
-  std::int16_t neighbour(int column, int row) const {
-    constexpr std::array<std::array<int, 2>, 4> kBeside = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-    const auto cell = static_cast<std::size_t>(cells_.index(column, row));
-    for (const auto& [dc, dr] : kBeside) {
-      const int c = column + dc, r = row + dr;
-      if (c < 0 || r < 0 || c >= cells_.columns() || r >= cells_.rows()) continue;
-      const std::int16_t near = label_[static_cast<std::size_t>(cells_.index(c, r))];
-      if (near >= 0 && is_on(cell, static_cast<std::size_t>(near))) return near;
-    }
-    return kNoPlane;
+  std::int16_t neighbour(int cell) const {
+    std::int16_t found = kNoPlane;
+    visit_beside(cell, [&](int beside) {
+      const std::int16_t near = label_[static_cast<std::size_t>(beside)];
+      if (found < 0 && near >= 0 && is_on(cell, static_cast<std::size_t>(near))) found = near;
+    });
+    return found;
   }
 
   bool is_alone(int cell, const std::vector<std::int16_t>& label) const {

@@ -12,7 +12,6 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr int kLeastCells = 12;
-constexpr std::size_t kEnoughCells = 500;  // of a larger part, every second one, or third
 // A depth camera's noise is alike in neighbouring cells: so many count as one.
 constexpr double kCorrelatedCells = 4.0;
 
@@ -65,9 +64,7 @@ std::optional<PartCurvature> curvature_of(const std::vector<CellPoint>& part,
   const PartAxes axes = axes_of(part, fit);
   if (!(axes.size.minCoeff() > 0.0)) return std::nullopt;
   QuadricSums sums;  // in units of the part's size: they stay comparable
-  const std::size_t step = 1 + part.size() / kEnoughCells;
-  for (std::size_t i = 0; i < part.size(); i += step) {
-    const CellPoint& cell = part[i];
+  for (const CellPoint& cell : part) {
     const Eigen::Vector3d from = cell.mean - fit.centroid;
     sums.add(axes.s.dot(from) / axes.size.x(), axes.t.dot(from) / axes.size.y(),
              fit.plane.normal.dot(from), cell.pixels);
@@ -76,8 +73,7 @@ std::optional<PartCurvature> curvature_of(const std::vector<CellPoint>& part,
   if (solver.rcond() < 1e-9) return std::nullopt;
   const Vector6d quadric = solver.solve(sums.right / sums.weight);
   const double left = std::max(0.0, sums.squares - quadric.dot(sums.right)) / sums.weight;
-  const double independent =
-      std::max(1.0, static_cast<double>(part.size() / step - 6) / kCorrelatedCells);
+  const double independent = std::max(1.0, static_cast<double>(part.size() - 6) / kCorrelatedCells);
   const Matrix6d covariance = left / independent * solver.inverse();
 
   Eigen::Matrix2d bend;

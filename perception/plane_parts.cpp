@@ -22,6 +22,7 @@ class Groups {
     return i;
   }
   void join(std::size_t a, std::size_t b) {
+    if (parent_[a] == parent_[b]) return;
     a = find(a);
     b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);
@@ -41,8 +42,7 @@ int gap_between(const Eigen::AlignedBox2i& a, const Eigen::AlignedBox2i& b) {
 int gap_in_pixels(const geometry::CameraModel& camera, const geometry::Plane& plane,
                   const PlaneCell& cell, double gap) {
   const Eigen::Vector2d at = cell.box.cast<double>().center();
-  if (!meets(camera, plane, at)) return kNearestPixels;
-  return std::max(kNearestPixels, static_cast<int>(gap / pixel_length(camera, plane, at)));
+  return meets(camera, plane, at) ? static_cast<int>(gap / pixel_length(camera, plane, at)) : 0;
 }
 
 }  // namespace
@@ -54,20 +54,28 @@ std::vector<PlanePart> split_into_parts(const geometry::CameraModel& camera, int
   // Each cell is joined with the next one in its row, the next one in its column, and those
   // touching its lower corners: `last` is the latest cell seen in each column, by index into cells.
   constexpr int kNone = -1;
+  static_assert(2 * (DepthCells::kSide - 1) <= kNearestPixels);  // cells that touch are one part
   Groups groups(cells.size());
   std::vector<int> last(static_cast<std::size_t>(columns), kNone);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const int row = cells[i].cell / columns, column = cells[i].cell % columns;
-    const int reach = gap_in_pixels(camera, plane, cells[i], gap);
+    const int column = cells[i].box.min().x() / DepthCells::kSide;
     const auto join_if_near = [&](std::size_t other) {
-      if (gap_between(cells[other].box, cells[i].box) <= reach) groups.join(other, i);
+      const int pixels = gap_between(cells[other].box, cells[i].box);
+      if (pixels <= kNearestPixels || pixels <= gap_in_pixels(camera, plane, cells[i], gap)) {
+        groups.join(other, i);
+      }
     };
-    if (i > 0 && cells[i - 1].cell / columns == row) join_if_near(i - 1);
-    for (int c = std::max(0, column - 1); c <= std::min(columns - 1, column + 1); ++c) {
-      const int above = last[static_cast<std::size_t>(c)];
-      if (above != kNone) join_if_near(static_cast<std::size_t>(above));
+    if (i > 0 && cells[i].cell - cells[i - 1].cell <= column) join_if_near(i - 1);
+    int& above = last[static_cast<std::size_t>(column)];
+    if (above != kNone && cells[static_cast<std::size_t>(above)].cell + columns == cells[i].cell) {
+      groups.join(static_cast<std::size_t>(above), i);  // and so those that touch both
+    } else {
+      for (int c = std::max(0, column - 1); c <= std::min(columns - 1, column + 1); ++c) {
+        const int other = last[static_cast<std::size_t>(c)];
+        if (other != kNone) join_if_near(static_cast<std::size_t>(other));
+      }
     }
-    last[static_cast<std::size_t>(column)] = static_cast<int>(i);
+    above = static_cast<int>(i);
   }
 
   std::vector<PlanePart> parts;

@@ -3,50 +3,49 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
 
+#include "perception/cell_label.hpp"
 #include "perception/plane_extractor.hpp"
 
 namespace geomap::perception {
 namespace {
 
 constexpr int kSide = DepthCells::kSide;
+constexpr std::size_t kEnoughPoints = 500;  // of a larger part, every second one, or third
 
-// Sums of one cell, of all readings or of those with one label: 1, z and z² times monomials of the
-// ray.
+// Sums of one cell, of all readings or of those with one label.
 struct CellSums {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-  double z = 0, zx = 0, zy = 0, zz = 0, zzx = 0, zzy = 0, zzxx = 0, zzxy = 0, zzyy = 0;
+  std::array<double, 6> rays{};    // 1, x, y, xx, xy, yy
+  std::array<double, 9> depths{};  // z times 1, x, y, and z² times 1, x, y, xx, xy, yy
 
-  void add(double ray_x, double ray_y, double depth) {
-    const double square = depth * depth;
-    n += 1.0;
-    x += ray_x;
-    y += ray_y;
-    xx += ray_x * ray_x;
-    xy += ray_x * ray_y;
-    yy += ray_y * ray_y;
-    z += depth;
-    zx += depth * ray_x;
-    zy += depth * ray_y;
-    zz += square;
-    zzx += square * ray_x;
-    zzy += square * ray_y;
-    zzxx += square * ray_x * ray_x;
-    zzxy += square * ray_x * ray_y;
-    zzyy += square * ray_y * ray_y;
+  void add(double x, double y, double z) {
+    const double zz = z * z;
+    const std::array<double, 6> ray = {1.0, x, y, x * x, x * y, y * y};
+    for (std::size_t k = 0; k < 6; ++k) rays[k] += ray[k];
+    for (std::size_t k = 0; k < 3; ++k) depths[k] += z * ray[k];
+    for (std::size_t k = 0; k < 6; ++k) depths[k + 3] += zz * ray[k];
   }
+  void add(const CellSums& other, double weight) {
+    for (std::size_t k = 0; k < rays.size(); ++k) rays[k] += other.rays[k];
+    for (std::size_t k = 0; k < depths.size(); ++k) depths[k] += weight * other.depths[k];
+  }
+  double count() const { return rays[0]; }
+  Eigen::Vector3d points() const { return {depths[1], depths[2], depths[0]}; }
 };
 
 CellSums sums_of_cell(const DepthCells& cells, int column, int row) {
-  const auto at = [&cells, column, row](DepthCells::Sum sum) {
-    return cells.row(row, sum)[column];
-  };
-  return {at(DepthCells::kCount), at(DepthCells::kX),    at(DepthCells::kY),   at(DepthCells::kXX),
-          at(DepthCells::kXY),    at(DepthCells::kYY),   at(DepthCells::kZ),   at(DepthCells::kZX),
-          at(DepthCells::kZY),    at(DepthCells::kZZ),   at(DepthCells::kZZX), at(DepthCells::kZZY),
-          at(DepthCells::kZZXX),  at(DepthCells::kZZXY), at(DepthCells::kZZYY)};
+  CellSums sums;
+  const double* at = cells.row(row, DepthCells::kCount) + column;
+  for (double& sum : sums.rays) {
+    sum = *at;
+    at += cells.columns();
+  }
+  at = cells.row(row, DepthCells::kZ) + column;
+  for (double& sum : sums.depths) {
+    sum = *at;
+    at += cells.columns();
+  }
+  return sums;
 }
 
 Eigen::Matrix3d symmetric(double xx, double xy, double yy, double x, double y, double one) {
@@ -68,19 +67,27 @@ class PartSummer {
         has_color_(frame.color.width == frame.depth.width &&
                    frame.color.height == frame.depth.height) {}
 
-  void add(const PlaneCell& cell, PartSums& sums) const {
-    const CellSums s = cell.is_whole ? sums_of_cell(cells_, cell.cell % cells_.columns(),
-                                                    cell.cell / cells_.columns())
-                                     : sums_of_label(cell);
-    const double sigma = noise_.sigma(s.z / s.n), weight = 1.0 / (sigma * sigma);
-    geometry::PlaneMoments& m = sums.moments;
-    m.weight += weight * s.n;
-    m.first += weight * Eigen::Vector3d(s.zx, s.zy, s.z);
-    m.second += weight * symmetric(s.zzxx, s.zzxy, s.zzyy, s.zzx, s.zzy, s.zz);
-    m.noise += symmetric(s.xx, s.xy, s.yy, s.x, s.y, s.n);
-    sums.pixels += cell.pixels;
-    sums.points.push_back({Eigen::Vector3d(s.zx, s.zy, s.z) / s.n, s.n});
-    if (has_color_) add_color(cell, sums);
+  PartSums sum_up(const PlanePart& part) const {
+    PartSums sums;
+    const std::size_t step = 1 + part.size() / kEnoughPoints;
+    sums.points.reserve(part.size() / step + 1);
+    CellSums total;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const PlaneCell& cell = *part[i];
+      const CellSums s = sums_of(cell);
+      const double sigma = noise_.sigma(s.depths[0] / s.count()), weight = 1.0 / (sigma * sigma);
+      total.add(s, weight);
+      sums.moments.weight += weight * s.count();
+      sums.pixels += cell.pixels;
+      if (i % step == 0) sums.points.push_back({s.points() / s.count(), s.count()});
+      if (has_color_) add_color(cell, sums);
+    }
+    const auto& [n, x, y, xx, xy, yy] = total.rays;
+    const auto& [z, zx, zy, zz, zzx, zzy, zzxx, zzxy, zzyy] = total.depths;
+    sums.moments.first = total.points();
+    sums.moments.second = symmetric(zzxx, zzxy, zzyy, zzx, zzy, zz);
+    sums.moments.noise = symmetric(xx, xy, yy, x, y, n);
+    return sums;
   }
 
  private:
@@ -89,7 +96,9 @@ class PartSummer {
                   static_cast<std::size_t>(u)] == plane_;
   }
 
-  CellSums sums_of_label(const PlaneCell& cell) const {
+  CellSums sums_of(const PlaneCell& cell) const {
+    const Eigen::Vector2i& corner = cell.box.min();
+    if (cell.is_whole) return sums_of_cell(cells_, corner.x() / kSide, corner.y() / kSide);
     const geometry::CameraModel& camera = frame_.depth_camera;
     CellSums sums;
     for (int v = cell.box.min().y(); v <= cell.box.max().y(); ++v) {
@@ -123,32 +132,15 @@ class PartSummer {
   bool has_color_;
 };
 
-// The label that all pixels of a cell have, or kNoPlane where they differ.
-std::int16_t common_label(const std::int16_t* first, int width) {
-  static_assert(kSide == 4);
-  std::array<std::uint64_t, kSide> rows;
-  for (std::size_t j = 0; j < kSide; ++j) {
-    std::memcpy(&rows[j], first + static_cast<std::ptrdiff_t>(j) * width, sizeof rows[j]);
-  }
-  const bool is_common = rows[0] == std::rotl(rows[0], 16) && rows[1] == rows[0] &&
-                         rows[2] == rows[0] && rows[3] == rows[0];
-  return is_common ? *first : kNoPlane;
-}
-
 // Adds the pixels of one cell to the planes they are on.
 void collect_cell(const geometry::DepthImage& depth, int column, int row, double readings, int cell,
                   PlanePixels& pixels) {
-  if ((column + 1) * kSide <= depth.width && (row + 1) * kSide <= depth.height) {
-    const std::int16_t common =
-        common_label(pixels.label.data() + static_cast<std::ptrdiff_t>(row * kSide) * depth.width +
-                         column * kSide,
-                     depth.width);
-    if (common != kNoPlane) {
-      const Eigen::Vector2i corner(column * kSide, row * kSide);
-      pixels.cells[static_cast<std::size_t>(common)].push_back(
-          {cell, kSide * kSide, true, {corner, corner + Eigen::Vector2i::Constant(kSide - 1)}});
-      return;
-    }
+  if (const std::int16_t common = common_label(pixels.label, depth, column, row);
+      common != kNoPlane) {
+    const Eigen::Vector2i corner(column * kSide, row * kSide);
+    pixels.cells[static_cast<std::size_t>(common)].push_back(
+        {cell, kSide * kSide, true, {corner, corner + Eigen::Vector2i::Constant(kSide - 1)}});
+    return;
   }
   std::array<PlaneCell*, kSide * kSide> known{};
   std::array<std::int16_t, kSide * kSide> plane{};
@@ -191,11 +183,7 @@ PlanePixels collect_pixels(const geometry::RgbdFrame& frame, const DepthCells& c
 PartSums sum_part(const geometry::RgbdFrame& frame, const DepthCells& cells,
                   const geometry::DepthNoise& noise, const std::vector<std::int16_t>& label,
                   std::int16_t plane, const PlanePart& part) {
-  PartSums sums;
-  sums.points.reserve(part.size());
-  const PartSummer summer(frame, cells, noise, label, plane);
-  for (const PlaneCell* cell : part) summer.add(*cell, sums);
-  return sums;
+  return PartSummer(frame, cells, noise, label, plane).sum_up(part);
 }
 
 }  // namespace geomap::perception

@@ -45,7 +45,7 @@ struct PartSums {
   geometry::PlaneMoments moments;  // camera frame, weights 1/σ_z² at each cell's mean depth
   std::int64_t pixels = 0;
   std::array<double, 3> color{};  // red, green, blue; zero without colour of the depth's size
-  std::vector<CellPoint> points;  // one for each cell
+  std::vector<CellPoint> points;  // of each cell, or every second one, or third, if there are many
 };
 
 /// @brief Sums up the pixels with the label `plane` in the cells of a part.
