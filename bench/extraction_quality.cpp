@@ -58,15 +58,17 @@ void print(const std::vector<Candidate>& all, std::size_t frames) {
   std::printf("%zu kitchen frames; labels of at least 1000 pixels; share of all readings\n\n",
               frames);
   std::printf(
-      "| extractor | cover %%, median (p5) | mismatch %% | split | rms mm | planes, median | "
+      "| extractor | cover %%, median (p5) | mismatch %% | split (flush) | rms mm | planes, median "
+      "| "
       "time ms, median (p95) |\n|---|--:|--:|--:|--:|--:|--:|\n");
   const auto per_frame = static_cast<double>(frames);
   for (const Candidate& one : all) {
-    std::printf("| %s | %.1f (%.1f) | %.2f | %.2f | %.1f | %.0f | %.2f (%.2f) |\n",
+    std::printf("| %s | %.1f (%.1f) | %.2f | %.2f (%.2f) | %.1f | %.0f | %.2f (%.2f) |\n",
                 one.name.c_str(), 1e2 * bench::median(one.cover),
                 1e2 * bench::quantile(one.cover, 0.05), 1e2 * one.sum.mismatch(),
-                one.sum.splits / per_frame, 1e3 * one.sum.rms(), bench::median(one.planes),
-                bench::median(one.time), bench::quantile(one.time, 0.95));
+                one.sum.splits / per_frame, one.sum.flush_splits / per_frame, 1e3 * one.sum.rms(),
+                bench::median(one.planes), bench::median(one.time),
+                bench::quantile(one.time, 0.95));
   }
   std::printf(
       "\n| cover %% by depth | <1 m | 1-1.5 | 1.5-2 | 2-2.5 | 2.5-3 | >3 m |\n"

@@ -30,6 +30,7 @@ constexpr double kMismatchDeg = 20.0;
 constexpr int kReach = 3;                                 // between adjacent labels [pixel]
 constexpr int kLeastContact = 20;                         // [pixel]
 constexpr double kSplitDeg = 5.0, kSplitDistance = 0.02;  // [m]
+constexpr double kFlushDeg = 2.0, kFlushDistance = 0.005;
 
 // Sums of points for a least-squares plane.
 struct Sums {
@@ -162,7 +163,10 @@ class Measurement {
       }
     }
     for (const auto& [pair, pixels] : contacts) {
-      result_.splits += pixels >= kLeastContact && are_coplanar(pair.first, pair.second);
+      if (pixels < kLeastContact) continue;
+      const Fit &a = *fit_of(pair.first), &b = *fit_of(pair.second);
+      result_.splits += are_coplanar(a, b, kSplitDeg, kSplitDistance);
+      result_.flush_splits += are_coplanar(a, b, kFlushDeg, kFlushDistance);
     }
   }
 
@@ -178,11 +182,10 @@ class Measurement {
     return -1;
   }
 
-  bool are_coplanar(int first, int second) const {
-    const Fit &a = *fit_of(first), &b = *fit_of(second);
-    return degrees_between(a.plane, b.plane) < kSplitDeg &&
-           std::abs(a.plane.signed_distance(b.centroid)) < kSplitDistance &&
-           std::abs(b.plane.signed_distance(a.centroid)) < kSplitDistance;
+  static bool are_coplanar(const Fit& a, const Fit& b, double degrees, double distance) {
+    return degrees_between(a.plane, b.plane) < degrees &&
+           std::abs(a.plane.signed_distance(b.centroid)) < distance &&
+           std::abs(b.plane.signed_distance(a.centroid)) < distance;
   }
 
   const RgbdFrame& frame_;
@@ -224,6 +227,7 @@ SegmentationQuality& SegmentationQuality::operator+=(const SegmentationQuality& 
   blocks += other.blocks;
   mismatched += other.mismatched;
   splits += other.splits;
+  flush_splits += other.flush_splits;
   squared_residuals += other.squared_residuals;
   return *this;
 }

@@ -26,6 +26,7 @@ struct SegmentationQuality {
   std::int64_t blocks = 0;         // well-fitted ones, see measure_segmentation()
   std::int64_t mismatched = 0;     // of those, more than 20° off their label's plane
   int splits = 0;                  // pairs of adjacent labels that are coplanar
+  int flush_splits = 0;            // of those, the ones without even a small step between them
   double squared_residuals = 0.0;  // of labelled points to their label's plane [m²]
 
   std::int64_t valid() const;
@@ -49,7 +50,8 @@ struct SegmentationQuality {
 /// Over-segmentation: two labels are adjacent along a border of at least 20 pixels, each of which
 /// has the other label within 3 pixels to the right or below, with none of its own between. They
 /// are split when their planes differ by less than 5° and the centroid of each is less than 2 cm
-/// from the plane of the other.
+/// from the plane of the other. A book on a table makes such a pair, too; the flush ones, which
+/// differ by less than 2° and 5 mm, are pieces of one surface.
 /// @param label per pixel, row by row; negative: none.
 /// @throws std::invalid_argument unless there is one label per pixel.
 SegmentationQuality measure_segmentation(const geometry::RgbdFrame& frame,

@@ -90,10 +90,12 @@ TEST(SegmentationQuality, LabelsApartOrTouchingInFewPixelsAreNotAdjacent) {
   EXPECT_EQ(measure(wall, contact(20)).splits, 1);
 }
 
-TEST(SegmentationQuality, StepsAndCreasesAreNoSplits) {
+TEST(SegmentationQuality, StepsAreNoSplitsAndSmallOnesAreNotFlush) {
   const auto step = [](double millimetres) {
     return [millimetres](int u, int) { return u < 320 ? 1000.0 : 1000.0 + millimetres; };
   };
+  EXPECT_EQ(measure(step(3.0), two_halves).flush_splits, 1);
+  EXPECT_EQ(measure(step(15.0), two_halves).flush_splits, 0);
   EXPECT_EQ(measure(step(15.0), two_halves).splits, 1);
   EXPECT_EQ(measure(step(25.0), two_halves).splits, 0);
 }

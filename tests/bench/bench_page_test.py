@@ -10,10 +10,10 @@ import bench_page
 
 QUALITY = """25 kitchen frames
 
-| extractor | cover %, median (p5) | mismatch % | split | rms mm | time ms |
+| extractor | cover %, median (p5) | mismatch % | split (flush) | rms mm | time ms |
 |---|--:|--:|--:|--:|--:|
-| organized | 85.2 (81.5) | 0.30 | 0.68 | 8.2 | 14.0 |
-| ransac | 86.0 (81.0) | 0.40 | 0.92 | 8.1 | 1.0 |
+| organized | 85.2 (81.5) | 0.30 | 0.68 (0.04) | 8.2 | 14.0 |
+| ransac | 86.0 (81.0) | 0.40 | 0.92 (0.09) | 8.1 | 1.0 |
 
 | cover % by depth | <1 m | >3 m |
 |---|--:|--:|
