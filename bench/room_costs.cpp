@@ -9,9 +9,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include "logs/log_input.hpp"
+#include "messaging/log_reader.hpp"
 #include "messaging/program.hpp"
 #include "messaging/progress_bar.hpp"
+#include "perception/sensor_messages.hpp"
 #include "statistics.hpp"
 
 namespace geomap::bench {
@@ -113,14 +114,14 @@ bool RoomsWay::is_comparable(int room) const {
 RoomsRun run_rooms(const std::string& log, const RoomsWay& way, const messaging::Config& config) {
   const logs::PipelineConfig settings = logs::read_pipeline_config(config);
   logs::Pipeline pipeline(settings, 1);
-  logs::LogInput input(pipeline, {settings.driver_depth.camera(), settings.driver_color.camera()});
+  perception::SensorMessages input(
+      pipeline.tracking(), {settings.driver_depth.camera(), settings.driver_color.camera()});
   const double heap_before = heap_bytes();
   RoomsRun run;
   std::optional<std::int64_t> start;
   std::map<int, std::vector<double>> merging;  // [ms], by room
   Meter meter;
-  pipeline.on_tracked([&](const geomap::rgbd_frame_t&, const perception::Tracked&,
-                          const Eigen::Isometry3d&) { meter.note_tracked(); });
+  pipeline.on_tracked([&](const perception::TrackedFrame&) { meter.note_tracked(); });
   pipeline.on_keyframe(
       [&](const KeyframeRecord& record, const mapping::Observation&, const mapping::MapChange&) {
         if (!start) start = record.id;
@@ -141,7 +142,7 @@ RoomsRun run_rooms(const std::string& log, const RoomsWay& way, const messaging:
   while (const auto event = reader.next()) {
     if (messaging::stop_requested()) throw std::runtime_error("stopped");
     meter.start();
-    input.handle(*event);
+    input.handle(event->channel, event->data);
     progress.update(pipeline.frames(), pipeline.frames() * reader.size() / reader.position());
   }
   pipeline.finish();

@@ -12,12 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "geomap/rgbd_frame_t.hpp"
 #include "logs/pipeline_config.hpp"
 #include "logs/stage_times.hpp"
 #include "mapping/geometric_map.hpp"
 #include "perception/plane_extractor.hpp"
-#include "perception/tracker.hpp"
+#include "perception/tracking_process.hpp"
 
 namespace geomap::logs {
 
@@ -47,9 +46,8 @@ class Pipeline {
   using KeyframeListener = std::function<void(const KeyframeRecord&, const mapping::Observation&,
                                               const mapping::MapChange&)>;
 
-  /// @brief Called for each frame once it has been tracked, with T_world_odom as it is then.
-  using TrackListener = std::function<void(const geomap::rgbd_frame_t&, const perception::Tracked&,
-                                           const Eigen::Isometry3d&)>;
+  /// @brief Called for each frame once it has been tracked.
+  using TrackListener = std::function<void(const perception::TrackedFrame&)>;
 
   /// @param threads at least 1; beyond 1, that many key frames are extracted at the same time.
   /// @throws std::invalid_argument when a setting is not valid.
@@ -59,20 +57,19 @@ class Pipeline {
 
   void on_tracked(TrackListener listener) { track_listener_ = std::move(listener); }
 
-  void add_pose(std::int64_t utime, const Eigen::Isometry3d& T_odom_body);
-  void add_camera_to_body(std::int64_t utime, const Eigen::Isometry3d& T_body_camera);
-  void add_frame(geomap::rgbd_frame_t message);
+  /// @brief Where the input goes.
+  perception::TrackingProcess& tracking() { return tracking_; }
   /// @brief Processes what still waits for a prior or an extraction. Call at the end of the input.
   void finish();
 
-  std::int64_t frames() const { return frames_; }
+  std::int64_t frames() const { return tracking_.frames(); }
   const std::vector<KeyframeRecord>& keyframes() const { return keyframes_; }
   /// @brief Frames that could not become key frames, by reason.
   const std::map<std::string, std::int64_t>& rejected() const { return rejected_; }
   const std::vector<TimedPose>& tracked() const { return tracked_; }
   const mapping::GeometricMap& map() const { return map_; }
-  const perception::PointMap& point_map() const { return tracker_.point_map(); }
-  const perception::Tracker& tracker() const { return tracker_; }
+  const perception::PointMap& point_map() const { return tracker().point_map(); }
+  const perception::Tracker& tracker() const { return tracking_.tracker(); }
 
  private:
   struct Extraction {
@@ -80,24 +77,20 @@ class Pipeline {
     std::future<perception::ExtractedPlanes> planes;
   };
 
-  void process_ready();
-  void process_next();
-  void process(const geomap::rgbd_frame_t& message);
+  void take(perception::TrackedFrame frame);
   void start_extraction(KeyframeRecord record, geometry::RgbdFrame frame);
   void merge_oldest();
 
   PipelineConfig config_;
   std::size_t threads_;
-  perception::Tracker tracker_;
+  perception::TrackingProcess tracking_;
   std::unique_ptr<perception::PlaneExtractor> extractor_;
   mapping::GeometricMap map_;
 
-  std::deque<geomap::rgbd_frame_t> waiting_;  // for their prior
-  std::deque<Extraction> extractions_;        // in the order of the key frames
+  std::deque<Extraction> extractions_;  // in the order of the key frames
   KeyframeListener listener_;
   TrackListener track_listener_;
 
-  std::int64_t frames_ = 0;
   std::vector<KeyframeRecord> keyframes_;
   std::map<std::string, std::int64_t> rejected_;
   std::vector<TimedPose> tracked_;

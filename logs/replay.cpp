@@ -11,19 +11,21 @@
 #include "geometry/polygon.hpp"
 #include "logs/git_revision.hpp"
 #include "logs/growth_pictures.hpp"
-#include "logs/log_input.hpp"
 #include "logs/trajectory_file.hpp"
 #include "mapping/export_file.hpp"
 #include "mapping/export_svg.hpp"
 #include "mapping/map_journal.hpp"
 #include "messaging/channels.hpp"
 #include "messaging/convert_geometry.hpp"
+#include "messaging/log_reader.hpp"
 #include "messaging/log_writer.hpp"
 #include "messaging/program.hpp"
 #include "messaging/progress_bar.hpp"
 #include "messaging/safe_decode.hpp"
+#include "messaging/stopwatch.hpp"
 #include "perception/keyframe_messages.hpp"
 #include "perception/point_map_ply.hpp"
+#include "perception/sensor_messages.hpp"
 
 namespace geomap::logs {
 namespace {
@@ -59,10 +61,10 @@ void check_not_overwritten(const ReplayOptions& options) {
 struct Pass {
   Pass(const PipelineConfig& config, int threads)
       : pipeline(config, threads),
-        input(pipeline, {config.driver_depth.camera(), config.driver_color.camera()}) {}
+        input(pipeline.tracking(), {config.driver_depth.camera(), config.driver_color.camera()}) {}
 
   Pipeline pipeline;
-  LogInput input;
+  perception::SensorMessages input;
   Trajectory reference;  // TRUTH_POSE, where the log has it: for evaluation, not for the pipeline
   bool log_damaged = false;
   bool stopped = false;
@@ -81,11 +83,11 @@ void note_reference(const messaging::LogEvent& event, Trajectory& reference) {
 }
 
 void run(Pass& pass, const std::string& log) {
-  const Stopwatch stopwatch;
+  const messaging::Stopwatch stopwatch;
   messaging::LogReader reader(log);
   messaging::ProgressBar progress("frames", 0);
   while (const auto event = reader.next()) {
-    pass.input.handle(*event);
+    pass.input.handle(event->channel, event->data);
     note_reference(*event, pass.reference);
     progress.update(pass.pipeline.frames(),
                     pass.pipeline.frames() * reader.size() / reader.position());
@@ -107,25 +109,16 @@ class DerivedLog {
   explicit DerivedLog(const std::string& path) {
     if (!path.empty()) writer_.emplace(path);
   }
-  void write(const geomap::rgbd_frame_t& frame, const perception::Tracked& tracked,
-             const Eigen::Isometry3d& T_world_odom) {
+  void write(const perception::TrackedFrame& frame) {
     if (!writer_) return;
-    if (!session_) session_ = frame.utime;
-    if (tracked.T_world_camera) {
-      writer_->write(channels::kCameraPose, frame.utime,
-                     messaging::to_rigid_transform(frame.utime, *tracked.T_world_camera));
-    }
-    // A frame that was only tracked is no key frame, and was not refused as one.
-    if (!tracked.registration || tracked.status == perception::TrackStatus::kTracked) return;
-    writer_->write(channels::kKeyframe, frame.utime,
-                   perception::to_message(*tracked.registration, frame, *session_, sequence_++));
-    if (tracked.status != perception::TrackStatus::kKeyframe) return;
-    writer_->write(channels::kOdomToWorld, frame.utime,
-                   messaging::to_rigid_transform(frame.utime, T_world_odom));
+    messages_.send(frame, [this](const char* channel, std::int64_t utime, const auto& message) {
+      writer_->write(channel, utime, message);
+    });
   }
   void write(const KeyframeRecord& record, const mapping::Observation& observation) {
     if (!writer_) return;
-    const messaging::PlaneSet planes{record.id, *session_, record.T_world_camera,
+    const messaging::PlaneSet planes{record.id,           *messages_.session(),
+                                     planes_sequence_++,  record.T_world_camera,
                                      record.noise_factor, observation.planes};
     writer_->write(channels::kPlanes, record.id, messaging::to_message(planes));
   }
@@ -135,8 +128,8 @@ class DerivedLog {
 
  private:
   std::optional<messaging::LogWriter> writer_;
-  std::optional<std::int64_t> session_;  // utime of the first frame
-  std::int64_t sequence_ = 0;
+  perception::TrackingMessages messages_;
+  std::int64_t planes_sequence_ = 0;
 };
 
 DataReduction reduction_of(const Pipeline& pipeline, const std::filesystem::path& map_file) {
@@ -190,9 +183,7 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   Pass first(settings, options.threads);
   DerivedLog derived(options.log_out);
   GrowthPictures pictures(options.pictures_every);
-  first.pipeline.on_tracked(
-      [&](const geomap::rgbd_frame_t& frame, const perception::Tracked& tracked,
-          const Eigen::Isometry3d& T_world_odom) { derived.write(frame, tracked, T_world_odom); });
+  first.pipeline.on_tracked([&](const perception::TrackedFrame& frame) { derived.write(frame); });
   first.pipeline.on_keyframe([&](const KeyframeRecord& record,
                                  const mapping::Observation& observation,
                                  const mapping::MapChange& change) {
@@ -235,7 +226,7 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   report.frames = pipeline.frames();
   report.rejected = pipeline.rejected();
   report.refused = first.input.refused();
-  report.sequence_gaps = first.input.sequence_gaps();
+  report.sequence_gaps = first.input.missing_frames();
   report.log_damaged = first.log_damaged;
   report.keyframes = pipeline.keyframes();
   report.tracking = pipeline.tracker().counts();

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "logs/log_input.hpp"
 #include "logs/pipeline.hpp"
 #include "logs/stage_times.hpp"
 #include "mapping/map_snapshot.hpp"
+#include "perception/sensor_messages.hpp"
 
 namespace geomap::logs {
 
@@ -33,7 +33,7 @@ struct Report {
   std::string config_hash;
   std::int64_t frames = 0;
   std::map<std::string, std::int64_t> rejected;  // by reason
-  LogInput::Refused refused;                     // by channel and reason
+  perception::SensorMessages::Refused refused;   // by channel and reason
   std::int64_t sequence_gaps = 0;
   bool log_damaged = false;
   std::vector<KeyframeRecord> keyframes;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
 #include <vector>
 
 namespace geomap::logs {
@@ -26,16 +25,5 @@ struct Summary {
 
 /// @brief Summary of a series in any order; zeros for an empty one. Percentiles by nearest rank.
 Summary summarize(std::vector<double> values);
-
-/// @brief Seconds since construction.
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace geomap::logs

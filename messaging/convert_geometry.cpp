@@ -204,6 +204,7 @@ geomap::plane_set_t to_message(const PlaneSet& planes) {
   geomap::plane_set_t message{};
   message.utime = planes.keyframe;
   message.session = planes.session;
+  message.sequence = planes.sequence;
   message.T_world_camera = to_message(planes.T_world_camera);
   message.noise_factor = planes.noise_factor;
   message.n_planes = static_cast<std::int32_t>(planes.planes.size());
@@ -217,6 +218,7 @@ std::optional<PlaneSet> from_message(const geomap::plane_set_t& message) {
   PlaneSet planes;
   planes.keyframe = message.utime;
   planes.session = message.session;
+  planes.sequence = message.sequence;
   planes.T_world_camera = from_message(message.T_world_camera);
   planes.noise_factor = message.noise_factor;
   for (const geomap::plane_t& plane : message.planes) {

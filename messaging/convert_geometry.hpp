@@ -54,6 +54,7 @@ std::optional<geometry::PlaneObservation> from_message(const geomap::plane_t& me
 struct PlaneSet {
   std::int64_t keyframe = 0;  // utime of the key frame [us], its id
   std::int64_t session = 0;   // of the publisher
+  std::int64_t sequence = 0;  // counts the session's sets, from 0
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
   double noise_factor = 1.0;  // of the depth noise model, as estimated for this frame
   std::vector<geometry::PlaneObservation> planes;  // camera frame

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -41,6 +41,14 @@ class PlaneExtractor {
   /// orientation of planes is constrained.
   virtual ExtractedPlanes extract(const geometry::RgbdFrame& frame, std::uint64_t seed,
                                   const std::optional<Eigen::Vector3d>& up_camera) const = 0;
+
+  /// @brief The same for a key frame of this id and pose (world z up).
+  ExtractedPlanes extract_keyframe(const geometry::RgbdFrame& frame, std::int64_t keyframe,
+                                   const Eigen::Isometry3d& T_world_camera) const {
+    const Eigen::Vector3d up_camera =
+        T_world_camera.linear().transpose() * Eigen::Vector3d::UnitZ();
+    return extract(frame, static_cast<std::uint64_t>(keyframe), up_camera);
+  }
 };
 
 }  // namespace geomap::perception

@@ -187,6 +187,7 @@ Tracked Tracker::reject(std::int64_t utime, const Start& start, RegistrationResu
 Tracked Tracker::take(std::int64_t utime, const Prior& prior, FrameView view,
                       RegistrationResult result) {
   const Eigen::Isometry3d T_world_camera = orthonormal(result.T_world_camera);
+  result.T_world_camera = T_world_camera;  // the one pose, also of what is published
   const bool is_keyframe = selector_.is_due(T_world_camera);
   if (is_keyframe) {
     try {
@@ -245,6 +246,15 @@ bool Tracker::remove(std::int64_t keyframe) {
   std::erase_if(surfaces_, is_it);
   std::erase_if(keyframes_, [&](const Pose& pose) { return pose.utime == keyframe; });
   return point_map_.remove(keyframe);
+}
+
+void Tracker::clear() {
+  surfaces_.clear();
+  keyframes_.clear();
+  point_map_.clear();
+  selector_.reset();
+  lost_ = false;
+  rejections_ = 0;
 }
 
 void Tracker::note_time(std::int64_t utime) {

@@ -114,6 +114,9 @@ class Tracker {
   /// @brief Takes a key frame out of the point map again. @return false when there is none.
   bool remove(std::int64_t keyframe);
 
+  /// @brief Takes all key frames out of the point map; the odometry stays tied to the world.
+  void clear();
+
   bool is_lost() const { return lost_; }
   const PointMap& point_map() const { return point_map_; }
   const TrackerCounts& counts() const { return counts_; }

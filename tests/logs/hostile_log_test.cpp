@@ -7,13 +7,14 @@
 #include <limits>
 #include <random>
 
-#include "logs/log_input.hpp"
+#include "logs/pipeline.hpp"
 #include "logs/synthetic_log.hpp"
 #include "mapping/map_hash.hpp"
 #include "messaging/convert_frame.hpp"
 #include "messaging/convert_geometry.hpp"
 #include "messaging/encode.hpp"
 #include "messaging/safe_decode.hpp"
+#include "perception/sensor_messages.hpp"
 
 namespace geomap::logs {
 namespace {
@@ -25,7 +26,7 @@ struct Outcome {
   std::string hash;
   std::size_t keyframes = 0;
   std::map<std::string, std::int64_t> rejected;
-  LogInput::Refused refused;
+  perception::SensorMessages::Refused refused;
 
   std::int64_t refusals() const {
     std::int64_t sum = 0;
@@ -38,8 +39,8 @@ struct Outcome {
 
 Outcome replayed(const Events& events) {
   Pipeline pipeline(PipelineConfig{}, 1);
-  LogInput input(pipeline, {});
-  for (const LogEvent& event : events) input.handle(event);
+  perception::SensorMessages input(pipeline.tracking(), {});
+  for (const LogEvent& event : events) input.handle(event.channel, event.data);
   pipeline.finish();
   return {mapping::map_hash(pipeline.map().features()), pipeline.keyframes().size(),
           pipeline.rejected(), input.refused()};
@@ -200,13 +201,13 @@ TEST(HostileLog, FramesThatComeAgainAreCountedAndDoNotCountTwice) {
 TEST(HostileLog, MissingFramesAreCountedByTheirSequenceNumbers) {
   const auto gaps = [](const std::vector<std::int64_t>& sequences) {
     Pipeline pipeline(PipelineConfig{}, 1);
-    LogInput input(pipeline, {});
+    perception::SensorMessages input(pipeline.tracking(), {});
     auto frame = decoded<geomap::rgbd_frame_t>(good_log()[2]);
     for (const std::int64_t sequence : sequences) {
       frame.sequence = sequence;
-      input.handle({0, frame.utime, "RGBD_FRAME", messaging::encode(frame)});
+      input.handle("RGBD_FRAME", messaging::encode(frame));
     }
-    return input.sequence_gaps();
+    return input.missing_frames();
   };
   constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
   constexpr auto kLeast = std::numeric_limits<std::int64_t>::min();

@@ -16,7 +16,6 @@
 #include "drivers/seven_scenes_source.hpp"
 #include "geometry/angles.hpp"
 #include "logs/import.hpp"
-#include "logs/log_input.hpp"
 #include "logs/pipeline.hpp"
 #include "logs/reference_planes.hpp"
 #include "logs/trajectory_metrics.hpp"
@@ -27,6 +26,7 @@
 #include "messaging/encode.hpp"
 #include "messaging/log_reader.hpp"
 #include "messaging/safe_decode.hpp"
+#include "perception/sensor_messages.hpp"
 #include "support/recordings.hpp"
 
 namespace geomap::logs {
@@ -96,13 +96,13 @@ class KitchenRegistration : public ::testing::Test {
     PipelineConfig config;
     config.tracker.registration.method = align ? "icp" : "prior";
     KitchenRun result{name, std::make_unique<Pipeline>(config, 2)};
-    LogInput input(*result.pipeline, {});
+    perception::SensorMessages input(result.pipeline->tracking(), {});
     drivers::OdometryDrift drift({0.05, 2.0, seed.value_or(1)});
     Trajectory raw;
     bool first = true;
     for (const messaging::LogEvent& event : events_) {
       if (!align || event.channel != messaging::channels::kPose) {
-        input.handle(event);
+        input.handle(event.channel, event.data);
         continue;
       }
       const auto pose =
@@ -110,7 +110,7 @@ class KitchenRegistration : public ::testing::Test {
       const std::int64_t utime = pose.message->utime;
       const Eigen::Isometry3d T = drift.next(messaging::from_message(*pose.message));
       raw.emplace_back(utime, T * T_body_camera());
-      if (seed || first) result.pipeline->add_pose(utime, T);
+      if (seed || first) result.pipeline->tracking().add_pose(utime, T);
       first = false;
     }
     result.pipeline->finish();

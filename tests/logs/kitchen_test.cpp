@@ -14,13 +14,13 @@
 #include "geometry/angles.hpp"
 #include "geometry/polygon_clip.hpp"
 #include "logs/import.hpp"
-#include "logs/log_input.hpp"
 #include "logs/map_metrics.hpp"
 #include "logs/pipeline.hpp"
 #include "logs/reference_planes.hpp"
 #include "mapping/map_hash.hpp"
 #include "mapping/map_journal.hpp"
 #include "messaging/log_reader.hpp"
+#include "perception/sensor_messages.hpp"
 #include "support/recordings.hpp"
 #include "support/support_points.hpp"
 
@@ -40,9 +40,9 @@ PipelineConfig recorded_poses() {
 // One replay of a log with given settings.
 std::unique_ptr<Pipeline> replay(const fs::path& log, const PipelineConfig& config, int threads) {
   auto pipeline = std::make_unique<Pipeline>(config, threads);
-  LogInput input(*pipeline, {});
+  perception::SensorMessages input(pipeline->tracking(), {});
   messaging::LogReader reader(log.string());
-  while (const auto event = reader.next()) input.handle(*event);
+  while (const auto event = reader.next()) input.handle(event->channel, event->data);
   pipeline->finish();
   EXPECT_TRUE(input.refused().empty());
   return pipeline;

@@ -133,11 +133,12 @@ TEST(ConvertGeometry, PlanesAreTheSameToTheLastBit) {
 TEST(ConvertGeometry, PlaneSetsAreTheSameToTheLastBit) {
   std::mt19937 random(4);
   const PlaneSet planes{
-      1000, 900, random_transform(random), 1.0 / 3.0, {some_plane(random), some_plane(random)}};
+      1000, 900, 7, random_transform(random), 1.0 / 3.0, {some_plane(random), some_plane(random)}};
   const auto back = from_message(sent(to_message(planes)));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->keyframe, 1000);
   EXPECT_EQ(back->session, 900);
+  EXPECT_EQ(back->sequence, 7);
   EXPECT_EQ(back->T_world_camera.matrix(), planes.T_world_camera.matrix());
   EXPECT_EQ(back->noise_factor, planes.noise_factor);
   ASSERT_EQ(back->planes.size(), 2U);

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/register_process.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "geomap/keyframe_update_t.hpp"
+#include "messaging/log.hpp"
+
+namespace geomap::perception {
+
+namespace channels = messaging::channels;
+using messaging::Keep;
+
+RegisterConfig read_register_config(const messaging::Config& config) {
+  return {read_tracker_config(config),
+          {config.read<messaging::CameraConfig>("driver_camera.depth").camera(),
+           config.read<messaging::CameraConfig>("driver_camera.color").camera()}};
+}
+
+RegisterProcess::RegisterProcess(const RegisterConfig& config, messaging::LiveProcess& live)
+    : live_(live),
+      tracking_(config.tracker, [this](const TrackedFrame& frame) { take_tracked(frame); }),
+      sensors_(tracking_, config.cameras) {
+  const auto sensor = [this](const std::string& channel, messaging::LiveProcess::Bytes data) {
+    take_sensor(channel, data);
+  };
+  for (const char* frames :
+       {channels::kRgbdFrame, channels::kOpenniFrame, channels::kKinectFrame}) {
+    live_.on_bytes(frames, Keep::kNewest, sensor);
+  }
+  live_.on_bytes(channels::kPose, Keep::kEvery, sensor);
+  live_.on_bytes(channels::kCameraToBody, Keep::kEvery, sensor);
+  live_.on<geomap::map_request_t>(
+      channels::kMapRequest, Keep::kEvery,
+      [this](const geomap::map_request_t& request) { take_request(request); });
+  live_.on<geomap::map_edit_t>(channels::kMapEdit, Keep::kEvery,
+                               [this](const geomap::map_edit_t& edit) { take_edit(edit); });
+  live_.every(1.0, [this] { note_counts(); });
+}
+
+void RegisterProcess::finish() {
+  tracking_.finish();
+  note_counts();
+}
+
+void RegisterProcess::take_sensor(const std::string& channel, messaging::LiveProcess::Bytes data) {
+  const bool is_frame = channel != channels::kPose && channel != channels::kCameraToBody;
+  if (is_paused_ && is_frame) {
+    live_.health().count("paused.frames");
+    return;
+  }
+  sensors_.handle(channel, data);
+  if (live_.bus().config().lossless) note_counts();
+}
+
+void RegisterProcess::take_request(const geomap::map_request_t& request) {
+  using Request = geomap::map_request_t;
+  switch (request.kind) {
+    case Request::PAUSE:
+    case Request::RESUME:
+      is_paused_ = request.kind == Request::PAUSE;
+      messaging::log_info(is_paused_ ? "paused" : "resumed");
+      break;
+    case Request::CLEAR:
+      tracking_.tracker().clear();
+      messaging::log_info("key frames and point map cleared; the pose is kept");
+      break;
+    case Request::RESET:
+      tracking_.reset();
+      messaging::log_info("reset: the next key frame is the first one");
+      break;
+    default:
+      break;  // the mapper's
+  }
+}
+
+// Only registration drops key frames; whoever maps follows.
+void RegisterProcess::take_edit(const geomap::map_edit_t& edit) {
+  if (edit.kind != geomap::map_edit_t::REMOVE_KEYFRAME) return;
+  if (!tracking_.tracker().remove(edit.keyframe)) return;
+  geomap::keyframe_update_t update{};
+  update.utime = newest_utime_;
+  update.session = messages_.session().value_or(0);
+  update.epoch = ++epoch_;
+  update.removed = {edit.keyframe};
+  update.n_removed = 1;
+  live_.publish(channels::kKeyframeUpdate, update);
+}
+
+void RegisterProcess::take_tracked(const TrackedFrame& frame) {
+  newest_utime_ = std::max(newest_utime_, frame.message.utime);
+  messaging::Health& health = live_.health();
+  health.note_utime(newest_utime_);
+  health.count("frames");
+  if (!frame.tracked.reason.empty()) health.count("refused_frames." + frame.tracked.reason);
+  health.time("registration", frame.registration_seconds);
+  if (frame.decode_seconds > 0.0) health.time("decode", frame.decode_seconds);
+  messages_.send(frame, [this](const char* channel, std::int64_t, const auto& message) {
+    live_.publish(channel, message);
+  });
+  health.set_session(messages_.session().value_or(0));
+  if (frame.tracked.status == TrackStatus::kKeyframe) health.count("keyframes");
+}
+
+void RegisterProcess::note_counts() {
+  messaging::Health& health = live_.health();
+  for (const auto& [channel, reasons] : sensors_.refused()) {
+    for (const auto& [reason, count] : reasons) {
+      health.set("rejected." + channel + "." + reason, count);
+    }
+  }
+  // A frame that a newer one has replaced is missing by its number, but not lost on the way.
+  const auto replaced = live_.bus().inbox().replaced();
+  const auto found = replaced.find(channels::kRgbdFrame);
+  const std::int64_t missing =
+      sensors_.missing_frames() - (found == replaced.end() ? 0 : found->second);
+  if (missing <= noted_missing_) return;
+  live_.note_missing(channels::kRgbdFrame, missing - std::exchange(noted_missing_, missing));
+}
+
+std::string RegisterProcess::summary() const {
+  return fmt::format("{} key frames in the point map, {} points\n",
+                     tracking_.tracker().point_map().keyframes(),
+                     tracking_.tracker().point_map().size());
+}
+
+}  // namespace geomap::perception
