@@ -30,13 +30,13 @@ void Pipeline::take(perception::TrackedFrame frame) {
   if (!tracked.reason.empty()) ++rejected_[tracked.reason];
   if (tracked.T_world_camera) tracked_.emplace_back(frame.message.utime, *tracked.T_world_camera);
   if (tracked.status != perception::TrackStatus::kKeyframe) return;
-  start_extraction(
-      {.id = frame.message.utime,
-       .T_world_camera = *tracked.T_world_camera,
-       .pixels = static_cast<std::int64_t>(frame.image->depth.millimetres.size()),
-       .times = {.decode = frame.decode_seconds, .registration = frame.registration_seconds},
-       .registration = *tracked.registration},
-      std::move(*frame.image));
+  KeyframeRecord record{
+      .id = frame.message.utime,
+      .T_world_camera = *tracked.T_world_camera,
+      .pixels = static_cast<std::int64_t>(frame.image->depth.millimetres.size()),
+      .times = {.decode = frame.decode_seconds, .registration = frame.registration_seconds},
+      .registration = *tracked.registration};
+  start_extraction(std::move(record), std::move(*frame.image));
 }
 
 void Pipeline::start_extraction(KeyframeRecord record, geometry::RgbdFrame frame) {
