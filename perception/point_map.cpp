@@ -126,6 +126,11 @@ std::optional<Eigen::Isometry3d> PointMap::pose_of(std::int64_t keyframe) const 
   return found->second.T_world_camera;
 }
 
+const geometry::RgbdFrame* PointMap::thin_frame_of(std::int64_t keyframe) const {
+  const auto found = kept_.find(keyframe);
+  return found == kept_.end() ? nullptr : &found->second.frame;
+}
+
 void PointMap::clear() {
   voxels_.clear();
   kept_.clear();

@@ -87,7 +87,11 @@ class PointMap {
   std::optional<FrameView> view_of(std::int64_t keyframe) const;
   std::optional<Eigen::Isometry3d> pose_of(std::int64_t keyframe) const;
 
+  /// @brief What is kept of a key frame; nullptr when there is no such key frame.
+  const geometry::RgbdFrame* thin_frame_of(std::int64_t keyframe) const;
+
   const VoxelMap& voxels() const { return voxels_; }
+  std::vector<BlockIndex> take_changed_blocks() { return voxels_.take_changed_blocks(); }
   std::vector<MapPoint> points() const { return voxels_.points(); }
   std::size_t size() const { return voxels_.size(); }  // points
   std::size_t keyframes() const { return kept_.size(); }

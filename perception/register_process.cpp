@@ -9,6 +9,7 @@
 
 #include "geomap/keyframe_update_t.hpp"
 #include "messaging/log.hpp"
+#include "perception/point_map_messages.hpp"
 
 namespace geomap::perception {
 
@@ -16,7 +17,8 @@ namespace channels = messaging::channels;
 using messaging::Keep;
 
 RegisterConfig read_register_config(const messaging::Config& config) {
-  return {read_tracker_config(config),
+  return {{},
+          read_tracker_config(config),
           {config.read<messaging::CameraConfig>("driver_camera.depth").camera(),
            config.read<messaging::CameraConfig>("driver_camera.color").camera()}};
 }
@@ -40,6 +42,31 @@ RegisterProcess::RegisterProcess(const RegisterConfig& config, messaging::LivePr
   live_.on<geomap::map_edit_t>(channels::kMapEdit, Keep::kEvery,
                                [this](const geomap::map_edit_t& edit) { take_edit(edit); });
   live_.every(1.0, [this] { note_counts(); });
+  if (!config.state_folder.empty()) restore(config.state_folder);
+}
+
+void RegisterProcess::restore(const std::string& folder) {
+  journal_.emplace(folder);
+  const KeyframeJournal::Restored restored = journal_->restore(tracking_.tracker());
+  tracking_.tracker().take_changed_blocks();
+  messaging::log_info(fmt::format("{}: {} key frames restored", folder, restored.keyframes));
+  if (restored.refused > 0) {
+    messaging::log_warning(
+        fmt::format("{}: {} damaged records were passed over", folder, restored.refused));
+  }
+}
+
+// A full disk must not stop the robot; HEALTH tells.
+template <typename Record>
+void RegisterProcess::keep(const Record& record) {
+  if (!journal_) return;
+  try {
+    record();
+    live_.health().set_trouble(geomap::health_t::GOOD, {});
+  } catch (const std::runtime_error& error) {
+    live_.health().count("not_kept");
+    live_.health().set_trouble(geomap::health_t::FAILING, error.what());
+  }
 }
 
 void RegisterProcess::finish() {
@@ -67,11 +94,18 @@ void RegisterProcess::take_request(const geomap::map_request_t& request) {
       break;
     case Request::CLEAR:
       tracking_.tracker().clear();
+      keep([this] { journal_->clear(); });
+      publish_points(true);
       messaging::log_info("key frames and point map cleared; the pose is kept");
       break;
     case Request::RESET:
       tracking_.reset();
+      keep([this] { journal_->clear(); });
+      publish_points(true);
       messaging::log_info("reset: the next key frame is the first one");
+      break;
+    case Request::SNAPSHOT:
+      publish_points(true);
       break;
     default:
       break;  // the mapper's
@@ -88,7 +122,9 @@ void RegisterProcess::take_edit(const geomap::map_edit_t& edit) {
   update.epoch = ++epoch_;
   update.removed = {edit.keyframe};
   update.n_removed = 1;
+  keep([&] { journal_->keep(update); });
   live_.publish(channels::kKeyframeUpdate, update);
+  publish_points(true);
 }
 
 void RegisterProcess::take_tracked(const TrackedFrame& frame) {
@@ -99,11 +135,28 @@ void RegisterProcess::take_tracked(const TrackedFrame& frame) {
   if (!frame.tracked.reason.empty()) health.count("refused_frames." + frame.tracked.reason);
   health.time("registration", frame.registration_seconds);
   if (frame.decode_seconds > 0.0) health.time("decode", frame.decode_seconds);
+  const bool is_keyframe = frame.tracked.status == TrackStatus::kKeyframe;
+  if (is_keyframe) keep([&] { journal_->keep(frame, tracking_.tracker()); });
   messages_.send(frame, [this](const char* channel, std::int64_t, const auto& message) {
     live_.publish(channel, message);
   });
   health.set_session(messages_.session().value_or(0));
-  if (frame.tracked.status == TrackStatus::kKeyframe) health.count("keyframes");
+  if (!is_keyframe) return;
+  health.count("keyframes");
+  publish_points(false);
+}
+
+void RegisterProcess::publish_points(bool complete) {
+  const VoxelMap& voxels = tracking_.tracker().point_map().voxels();
+  std::vector<BlockIndex> blocks = tracking_.tracker().take_changed_blocks();
+  if (complete) blocks = voxels.blocks();
+  for (geomap::point_map_update_t& update : to_messages(voxels, blocks, complete)) {
+    update.utime = newest_utime_;
+    update.session = messages_.session().value_or(0);
+    update.epoch = epoch_;
+    update.sequence = ++points_sequence_;
+    live_.publish(channels::kPointMap, update);
+  }
 }
 
 void RegisterProcess::note_counts() {

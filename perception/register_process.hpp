@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "geomap/map_edit_t.hpp"
@@ -9,6 +10,7 @@
 #include "messaging/camera_config.hpp"
 #include "messaging/config.hpp"
 #include "messaging/live_process.hpp"
+#include "perception/keyframe_journal.hpp"
 #include "perception/keyframe_messages.hpp"
 #include "perception/sensor_messages.hpp"
 #include "perception/tracking_process.hpp"
@@ -16,11 +18,12 @@
 namespace geomap::perception {
 
 struct RegisterConfig {
+  std::string state_folder;  // for going on after a restart; empty: nothing is kept
   TrackerConfig tracker;
   messaging::FrameCameras cameras;  // of OPENNI_FRAME and KINECT_FRAME
 };
 
-/// @throws messaging::ConfigError.
+/// @brief All but the state folder. @throws messaging::ConfigError.
 RegisterConfig read_register_config(const messaging::Config& config);
 
 /// @brief geomap-register: sensors and robot in, key frames with their poses out. Owns every key
@@ -38,16 +41,22 @@ class RegisterProcess {
   void take_request(const geomap::map_request_t& request);
   void take_edit(const geomap::map_edit_t& edit);
   void take_tracked(const TrackedFrame& frame);
+  void restore(const std::string& folder);
+  template <typename Record>
+  void keep(const Record& record);
+  void publish_points(bool complete);
   void note_counts();
 
   messaging::LiveProcess& live_;
   TrackingProcess tracking_;
   SensorMessages sensors_;
   TrackingMessages messages_;
+  std::optional<KeyframeJournal> journal_;
   bool is_paused_ = false;
   std::int64_t noted_missing_ = 0;
   std::int64_t newest_utime_ = 0;  // of a frame [us]
   std::int64_t epoch_ = 0;         // of KEYFRAME_UPDATE
+  std::int64_t points_sequence_ = 0;
 };
 
 }  // namespace geomap::perception

@@ -248,6 +248,19 @@ bool Tracker::remove(std::int64_t keyframe) {
   return point_map_.remove(keyframe);
 }
 
+void Tracker::restore(std::int64_t keyframe, const geometry::RgbdFrame& thin,
+                      const Eigen::Isometry3d& T_world_camera) {
+  insert(keyframe, point_map_.view(thin), T_world_camera);
+  selector_.accept(T_world_camera);
+  note_time(keyframe);
+  note_pose(keyframe, T_world_camera);
+}
+
+void Tracker::restore_odometry(const Eigen::Isometry3d& T_world_odom) {
+  prior_.set_T_world_odom(T_world_odom);
+  linked_ = true;
+}
+
 void Tracker::clear() {
   surfaces_.clear();
   keyframes_.clear();

@@ -114,11 +114,22 @@ class Tracker {
   /// @brief Takes a key frame out of the point map again. @return false when there is none.
   bool remove(std::int64_t keyframe);
 
+  /// @brief Goes on from a key frame of an earlier tracker, as if this one had accepted it. Given
+  /// all of them in their order, the point map is the same to the last bit.
+  /// @param thin what that point map kept of it (PointMap::thin_frame_of)
+  /// @throws std::invalid_argument as PointMap::insert().
+  void restore(std::int64_t keyframe, const geometry::RgbdFrame& thin,
+               const Eigen::Isometry3d& T_world_camera);
+  /// @brief The correction of the odometry that goes with it.
+  void restore_odometry(const Eigen::Isometry3d& T_world_odom);
+
   /// @brief Takes all key frames out of the point map; the odometry stays tied to the world.
   void clear();
 
   bool is_lost() const { return lost_; }
   const PointMap& point_map() const { return point_map_; }
+  /// @brief Blocks of the point map that have changed since the last call.
+  std::vector<BlockIndex> take_changed_blocks() { return point_map_.take_changed_blocks(); }
   const TrackerCounts& counts() const { return counts_; }
 
  private:

@@ -153,6 +153,7 @@ std::size_t VoxelMap::insert(const RgbdFrame& frame, const Eigen::Isometry3d& T_
     if (block == nullptr || address.block != index) {
       index = address.block;
       block = &blocks_[index];  // stays where it is when the table grows
+      changed_.insert(index);
     }
     MapVoxel& voxel = block->find_or_add(address.number);
     if (voxel.count == 0) ++voxels_;
@@ -170,6 +171,7 @@ std::size_t VoxelMap::remove(const RgbdFrame& frame, const Eigen::Isometry3d& T_
       throw std::invalid_argument("voxel map: the frame to remove was not inserted");
     }
     reading.apply<-1>(*voxel);
+    changed_.insert(address.block);
     if (voxel->count > 0) return;
     found->second.erase(address.number);
     --voxels_;
@@ -183,6 +185,13 @@ std::vector<BlockIndex> VoxelMap::blocks() const {
   indices.reserve(blocks_.size());
   for (const auto& entry : blocks_) indices.push_back(entry.first);
   std::sort(indices.begin(), indices.end());  // the table's own order means nothing
+  return indices;
+}
+
+std::vector<BlockIndex> VoxelMap::take_changed_blocks() {
+  std::vector<BlockIndex> indices(changed_.begin(), changed_.end());
+  changed_.clear();
+  std::sort(indices.begin(), indices.end());
   return indices;
 }
 
@@ -238,6 +247,7 @@ std::size_t VoxelMap::memory_bytes() const {
 }
 
 void VoxelMap::clear() {
+  for (const auto& entry : blocks_) changed_.insert(entry.first);
   blocks_.clear();
   voxels_ = 0;
 }

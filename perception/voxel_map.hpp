@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "geometry/frustum.hpp"
@@ -95,6 +96,9 @@ class VoxelMap {
   Eigen::AlignedBox3d block_box(const BlockIndex& index) const;  // world frame [m]
   std::vector<MapPoint> block_points(const BlockIndex& index) const;
 
+  /// @brief Blocks that were changed, filled or emptied since the last call, ascending.
+  std::vector<BlockIndex> take_changed_blocks();
+
   std::size_t size() const { return voxels_; }  // voxels that hold points
   std::size_t memory_bytes() const;             // of blocks and voxels, without spare capacity
   void clear();
@@ -115,6 +119,7 @@ class VoxelMap {
   double fine_per_metre_;
   std::unordered_map<BlockIndex, MapBlock, BlockIndexHash> blocks_;
   std::size_t voxels_ = 0;
+  std::unordered_set<BlockIndex, BlockIndexHash> changed_;
 };
 
 }  // namespace geomap::perception
