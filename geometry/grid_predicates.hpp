@@ -61,6 +61,25 @@ inline Meeting meeting(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
   return c_side * d_side < 0 && a_side * b_side < 0 ? Meeting::kCross : Meeting::kTouch;
 }
 
+/// @brief x + 1/2, rounded down, for a quotient x whose denominator is positive.
+inline std::int32_t rounded_quotient(Int128 numerator, Int128 denominator) {
+  const Int128 n = 2 * numerator + denominator, d = 2 * denominator;
+  Int128 quotient = n / d;
+  if (n % d < 0) --quotient;
+  return static_cast<std::int32_t>(quotient);
+}
+
+/// @brief Grid cell of the point where the segments ab and cd, which cross, do so.
+inline GridPoint crossing_cell(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
+  Int128 numerator = cross(a, c, c, d), denominator = cross(a, b, c, d);
+  if (denominator < 0) {
+    numerator = -numerator;
+    denominator = -denominator;
+  }
+  return {a.x + rounded_quotient(dx(a, b) * numerator, denominator),
+          a.y + rounded_quotient(dy(a, b) * numerator, denominator)};
+}
+
 /// @brief True when q, seen from the corner prev -> at -> next, lies strictly on its left. q must
 /// not lie on one of the two arms.
 inline bool left_of_corner(GridPoint prev, GridPoint at, GridPoint next, GridPoint q) {

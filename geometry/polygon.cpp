@@ -41,28 +41,6 @@ bool is_near_segment(const Vector2d& p, const Vector2d& q, const Vector2d& point
   return (p + t * along - point).squaredNorm() <= kBorderWidth * kBorderWidth;
 }
 
-std::string nesting_fault(const Polygon& polygon) {
-  const auto& parts = polygon.parts;
-  for (const PolygonPart& part : parts) {
-    for (auto hole = part.holes.begin(); hole != part.holes.end(); ++hole) {
-      if (!lies_inside(*hole, part.outer)) return "a hole lies outside its outer ring";
-      for (auto other = part.holes.begin(); other != part.holes.end(); ++other) {
-        if (hole != other && lies_inside(*hole, *other)) return "a hole lies inside another hole";
-      }
-    }
-  }
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (std::size_t j = 0; j < parts.size(); ++j) {
-      if (i == j || !lies_inside(parts[i].outer, parts[j].outer)) continue;
-      const bool in_a_hole =
-          std::any_of(parts[j].holes.begin(), parts[j].holes.end(),
-                      [&](const Ring& hole) { return lies_inside(parts[i].outer, hole); });
-      if (!in_a_hole) return "a part lies inside another part";
-    }
-  }
-  return {};
-}
-
 Ring from_smallest_vertex(Ring ring) {
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
   return ring;
@@ -151,13 +129,35 @@ std::string find_fault(const Polygon& polygon) {
   const RingContacts contacts = find_contacts(rings);
   if (contacts.not_simple) return "a ring crosses or touches itself";
   if (contacts.crossing) return "two rings cross or share a stretch";
-  for (const PolygonPart& part : polygon.parts) {
+  return find_nesting_fault(polygon);
+}
+
+std::string find_nesting_fault(const Polygon& polygon) {
+  const auto& parts = polygon.parts;
+  for (const PolygonPart& part : parts) {
     if (twice_area(part.outer) < 0) return "an outer ring runs clockwise";
     for (const Ring& hole : part.holes) {
       if (twice_area(hole) > 0) return "a hole runs counter-clockwise";
     }
   }
-  return nesting_fault(polygon);
+  for (const PolygonPart& part : parts) {
+    for (auto hole = part.holes.begin(); hole != part.holes.end(); ++hole) {
+      if (!lies_inside(*hole, part.outer)) return "a hole lies outside its outer ring";
+      for (auto other = part.holes.begin(); other != part.holes.end(); ++other) {
+        if (hole != other && lies_inside(*hole, *other)) return "a hole lies inside another hole";
+      }
+    }
+  }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      if (i == j || !lies_inside(parts[i].outer, parts[j].outer)) continue;
+      const bool in_a_hole =
+          std::any_of(parts[j].holes.begin(), parts[j].holes.end(),
+                      [&](const Ring& hole) { return lies_inside(parts[i].outer, hole); });
+      if (!in_a_hole) return "a part lies inside another part";
+    }
+  }
+  return {};
 }
 
 Polygon canonical(Polygon polygon) {

@@ -80,6 +80,10 @@ bool is_simple(const Ring& ring);
 /// @brief What breaks the invariant, in words; empty for a valid polygon.
 std::string find_fault(const Polygon& polygon);
 
+/// @brief The same for a polygon whose rings are known to be simple and not to cross: only their
+/// orientation and nesting are looked at.
+std::string find_nesting_fault(const Polygon& polygon);
+
 /// @brief The same polygon with rings rotated to their smallest vertex, and holes and parts sorted.
 Polygon canonical(Polygon polygon);
 

@@ -8,6 +8,7 @@
 #include <polyclipping/clipper.hpp>
 #include <stdexcept>
 
+#include "geometry/crossing_overlay.hpp"
 #include "geometry/grid_predicates.hpp"
 #include "geometry/ring_contacts.hpp"
 #include "geometry/snap_overlay.hpp"
@@ -20,7 +21,7 @@ namespace clipper = ClipperLib;
 constexpr int kSliver = 100;         // least area of a part or hole: 1 mm² [grid unit²]
 constexpr double kMitreLimit = 2.5;  // corners sharper than 47° are cut off [offset distances]
 
-// An operation as both engines know it.
+// An operation as both engines for any rings know it.
 struct Operation {
   clipper::ClipType type;
   clipper::PolyFillType fill;
@@ -77,8 +78,30 @@ Polygon without_slivers(Polygon polygon) {
   return polygon;
 }
 
-// The clipper's tree of rings as a polygon, or nothing where rings touch themselves or each other:
-// there its rings and their nesting cannot be relied upon, and would not be unique.
+// Nothing where rings touch themselves or each other: there the rings of an engine that rounds, and
+// their nesting, cannot be relied upon, and would not be unique.
+std::optional<Polygon> checked(Polygon polygon) {
+  polygon = without_slivers(std::move(polygon));
+  if (!find_contacts(rings_of(polygon)).none()) return {};
+  if (!find_nesting_fault(polygon).empty()) return {};
+  return canonical(std::move(polygon));
+}
+
+std::optional<Polygon> by_crossings(const Operand& a, const Operand& b) {
+  const std::optional<std::vector<Ring>> rings = trace_intersection(a, b);
+  if (!rings) return {};
+  return checked(assemble_parts(*rings));
+}
+
+// De Morgan: all but what neither covers.
+std::optional<Polygon> union_by_crossings(const Polygon& a, const Polygon& b) {
+  std::optional<std::vector<Ring>> rings = trace_intersection({a, true}, {b, true});
+  if (!rings) return {};
+  for (Ring& ring : *rings) std::reverse(ring.begin(), ring.end());
+  return checked(assemble_parts(*rings));
+}
+
+// The clipper's tree of rings as a polygon.
 std::optional<Polygon> to_clean_polygon(const clipper::PolyTree& tree) {
   Polygon polygon;
   for (const clipper::PolyNode* node = tree.GetFirst(); node != nullptr; node = node->GetNext()) {
@@ -90,9 +113,7 @@ std::optional<Polygon> to_clean_polygon(const clipper::PolyTree& tree) {
     }
     if (!part.outer.empty()) polygon.parts.push_back(std::move(part));
   }
-  polygon = without_slivers(std::move(polygon));
-  if (!find_contacts(rings_of(polygon)).none() || !find_fault(polygon).empty()) return {};
-  return canonical(std::move(polygon));
+  return checked(std::move(polygon));
 }
 
 std::optional<Polygon> by_clipper(std::span<const Ring> a, std::span<const Ring> b,
@@ -148,6 +169,7 @@ Polygon unite(const Polygon& a, const Polygon& b) {
     both.parts.insert(both.parts.end(), b.parts.begin(), b.parts.end());
     return canonical(std::move(both));
   }
+  if (auto result = union_by_crossings(a, b)) return *std::move(result);
   std::vector<Ring> rings = copied_rings(a);
   append_rings(b, rings);
   std::sort(rings.begin(), rings.end());  // the operands' order must not matter
@@ -164,6 +186,7 @@ Polygon unite(std::span<const Polygon> polygons) {
 Polygon intersect(const Polygon& a, const Polygon& b) {
   if (a.empty() || b.empty() || boxes_apart(a, b)) return {};
   if (a == b) return canonical(a);
+  if (auto result = by_crossings({a}, {b})) return *std::move(result);
   const bool ordered = a < b;  // the operands' order must not matter
   return clip(copied_rings(ordered ? a : b), copied_rings(ordered ? b : a), kIntersection);
 }
@@ -171,6 +194,7 @@ Polygon intersect(const Polygon& a, const Polygon& b) {
 Polygon subtract(const Polygon& a, const Polygon& b) {
   if (a.empty() || a == b) return {};
   if (b.empty() || boxes_apart(a, b)) return canonical(a);
+  if (auto result = by_crossings({a}, {b, true})) return *std::move(result);
   return clip(copied_rings(a), copied_rings(b), kDifference);
 }
 

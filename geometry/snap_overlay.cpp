@@ -11,31 +11,13 @@
 namespace geomap::geometry {
 namespace {
 
-std::int32_t rounded_quotient(Int128 numerator, Int128 denominator) {
-  const Int128 n = 2 * numerator + denominator, d = 2 * denominator;  // floor(x + 1/2)
-  Int128 quotient = n / d;
-  if (n % d < 0) --quotient;
-  return static_cast<std::int32_t>(quotient);
-}
-
-// Grid cell of the point where two edges cross.
-GridPoint crossing_cell(const GridEdge& e, const GridEdge& f) {
-  Int128 numerator = cross(e.a, f.a, f.a, f.b), denominator = cross(e.a, e.b, f.a, f.b);
-  if (denominator < 0) {
-    numerator = -numerator;
-    denominator = -denominator;
-  }
-  const std::int32_t x = rounded_quotient(dx(e.a, e.b) * numerator, denominator);
-  const std::int32_t y = rounded_quotient(dy(e.a, e.b) * numerator, denominator);
-  return {e.a.x + x, e.a.y + y};
-}
-
 // Cells that hold a vertex or an intersection, sorted.
 std::vector<GridPoint> hot_cells(std::vector<GridEdge>& edges) {
   std::vector<GridPoint> cells;
   for (const GridEdge& edge : edges) cells.push_back(edge.a);
   visit_near_pairs(edges, [&](const GridEdge& e, const GridEdge& f) {
-    if (meeting(e.a, e.b, f.a, f.b) == Meeting::kCross) cells.push_back(crossing_cell(e, f));
+    if (meeting(e.a, e.b, f.a, f.b) == Meeting::kCross)
+      cells.push_back(crossing_cell(e.a, e.b, f.a, f.b));
     return true;
   });
   std::sort(cells.begin(), cells.end());
