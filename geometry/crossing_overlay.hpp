@@ -6,22 +6,22 @@
 #include <vector>
 
 #include "geometry/polygon.hpp"
+#include "geometry/snap_overlay.hpp"
 
 namespace geomap::geometry {
 
-/// @brief One operand of `trace_intersection`: a polygon, or all of the plane but a polygon.
-struct Operand {
-  const Polygon& polygon;
-  bool is_complement = false;
-};
-
-/// @brief Border of the area that two operands share, where their borders meet in crossings only:
-/// the rings are followed from crossing to crossing, always into the other area (Weiler, Atherton,
-/// "Hidden surface removal using polygon area sorting", SIGGRAPH 1977). Nothing where the borders
-/// touch or share a stretch.
+/// @brief Border of the area of two polygons that `inside` tells, where their borders meet in
+/// crossings only: winding numbers are carried along the rings from crossing to crossing, and the
+/// stretches that bound the area are joined (after Weiler, Atherton, "Hidden surface removal using
+/// polygon area sorting", SIGGRAPH 1977). Nothing where borders touch or share a stretch.
 ///
-/// Costs little more than copying the rings. The shared area lies on the left of every ring;
-/// crossings are rounded to the grid, after which rings may touch or cross.
-std::optional<std::vector<Ring>> trace_intersection(const Operand& a, const Operand& b);
+/// Costs little more than copying the rings. The area lies on the left of every ring; crossings are
+/// rounded to the grid, after which rings may touch or cross.
+std::optional<std::vector<Ring>> trace_overlay(const Polygon& a, const Polygon& b,
+                                               InsideRule inside);
+
+/// @brief The same for the area of any rings, which may cross themselves and each other; they are
+/// the rule's first operand.
+std::optional<std::vector<Ring>> trace_overlay(std::span<const Ring> rings, InsideRule inside);
 
 }  // namespace geomap::geometry

@@ -87,17 +87,8 @@ std::optional<Polygon> checked(Polygon polygon) {
   return canonical(std::move(polygon));
 }
 
-std::optional<Polygon> by_crossings(const Operand& a, const Operand& b) {
-  const std::optional<std::vector<Ring>> rings = trace_intersection(a, b);
+std::optional<Polygon> to_clean_polygon(const std::optional<std::vector<Ring>>& rings) {
   if (!rings) return {};
-  return checked(assemble_parts(*rings));
-}
-
-// De Morgan: all but what neither covers.
-std::optional<Polygon> union_by_crossings(const Polygon& a, const Polygon& b) {
-  std::optional<std::vector<Ring>> rings = trace_intersection({a, true}, {b, true});
-  if (!rings) return {};
-  for (Ring& ring : *rings) std::reverse(ring.begin(), ring.end());
   return checked(assemble_parts(*rings));
 }
 
@@ -131,9 +122,25 @@ std::optional<Polygon> by_clipper(std::span<const Ring> a, std::span<const Ring>
   return to_clean_polygon(tree);
 }
 
-Polygon clip(std::span<const Ring> a, std::span<const Ring> b, const Operation& operation) {
+// Where borders touch.
+Polygon clip_any(std::span<const Ring> a, std::span<const Ring> b, const Operation& operation) {
   if (std::optional<Polygon> result = by_clipper(a, b, operation)) return *std::move(result);
   return without_slivers(snap_overlay(a, b, operation.inside));
+}
+
+Polygon clip(std::span<const Ring> rings, const Operation& operation) {
+  auto result = to_clean_polygon(trace_overlay(rings, operation.inside));
+  return result ? *std::move(result) : clip_any(rings, {}, operation);
+}
+
+Polygon clip(const Polygon& a, const Polygon& b, const Operation& operation) {
+  auto result = to_clean_polygon(trace_overlay(a, b, operation.inside));
+  return result ? *std::move(result) : clip_any(copied_rings(a), copied_rings(b), operation);
+}
+
+// Their order must not matter.
+Polygon clip_ordered(const Polygon& a, const Polygon& b, const Operation& operation) {
+  return a < b ? clip(a, b, operation) : clip(b, a, operation);
 }
 
 bool boxes_apart(const Polygon& a, const Polygon& b) {
@@ -158,7 +165,7 @@ void check_offset(const Polygon& polygon, double units) {
 }  // namespace
 
 Polygon from_rings(std::span<const Ring> rings, FillRule rule) {
-  return clip(rings, {}, rule == FillRule::kEvenOdd ? kEvenOddUnion : kUnion);
+  return clip(rings, rule == FillRule::kEvenOdd ? kEvenOddUnion : kUnion);
 }
 
 Polygon unite(const Polygon& a, const Polygon& b) {
@@ -169,33 +176,26 @@ Polygon unite(const Polygon& a, const Polygon& b) {
     both.parts.insert(both.parts.end(), b.parts.begin(), b.parts.end());
     return canonical(std::move(both));
   }
-  if (auto result = union_by_crossings(a, b)) return *std::move(result);
-  std::vector<Ring> rings = copied_rings(a);
-  append_rings(b, rings);
-  std::sort(rings.begin(), rings.end());  // the operands' order must not matter
-  return clip(rings, {}, kUnion);
+  return clip_ordered(a, b, kUnion);
 }
 
 Polygon unite(std::span<const Polygon> polygons) {
   std::vector<Ring> rings;
   for (const Polygon& polygon : polygons) append_rings(polygon, rings);
   std::sort(rings.begin(), rings.end());
-  return clip(rings, {}, kUnion);
+  return clip(rings, kUnion);
 }
 
 Polygon intersect(const Polygon& a, const Polygon& b) {
   if (a.empty() || b.empty() || boxes_apart(a, b)) return {};
   if (a == b) return canonical(a);
-  if (auto result = by_crossings({a}, {b})) return *std::move(result);
-  const bool ordered = a < b;  // the operands' order must not matter
-  return clip(copied_rings(ordered ? a : b), copied_rings(ordered ? b : a), kIntersection);
+  return clip_ordered(a, b, kIntersection);
 }
 
 Polygon subtract(const Polygon& a, const Polygon& b) {
   if (a.empty() || a == b) return {};
   if (b.empty() || boxes_apart(a, b)) return canonical(a);
-  if (auto result = by_crossings({a}, {b, true})) return *std::move(result);
-  return clip(copied_rings(a), copied_rings(b), kDifference);
+  return clip(a, b, kDifference);
 }
 
 Polygon offset(const Polygon& polygon, double distance) {
