@@ -10,6 +10,7 @@
 
 #include "geometry/crossing_overlay.hpp"
 #include "geometry/grid_predicates.hpp"
+#include "geometry/offset_rings.hpp"
 #include "geometry/ring_contacts.hpp"
 #include "geometry/snap_overlay.hpp"
 
@@ -18,8 +19,7 @@ namespace {
 
 namespace clipper = ClipperLib;
 
-constexpr int kSliver = 100;         // least area of a part or hole: 1 mm² [grid unit²]
-constexpr double kMitreLimit = 2.5;  // corners sharper than 47° are cut off [offset distances]
+constexpr int kSliver = 100;  // least area of a part or hole: 1 mm² [grid unit²]
 
 // An operation as both engines for any rings know it.
 struct Operation {
@@ -36,6 +36,8 @@ constexpr Operation kDifference{clipper::ctDifference, clipper::pftNonZero,
                                 [](int a, int b) { return a != 0 && b == 0; }};
 constexpr Operation kEvenOddUnion{clipper::ctUnion, clipper::pftEvenOdd,
                                   [](int a, int) { return a % 2 != 0; }};
+constexpr Operation kPositive{clipper::ctUnion, clipper::pftPositive,
+                              [](int a, int) { return a > 0; }};
 
 clipper::Path to_path(const Ring& ring) {
   clipper::Path path;
@@ -202,18 +204,7 @@ Polygon offset(const Polygon& polygon, double distance) {
   const double units = distance / kGridUnit;
   if (polygon.empty()) return {};
   check_offset(polygon, units);
-  clipper::ClipperOffset engine(kMitreLimit);
-  for (const Ring* ring : rings_of(polygon)) {
-    engine.AddPath(to_path(*ring), clipper::jtMiter, clipper::etClosedPolygon);
-  }
-  clipper::PolyTree tree;
-  engine.Execute(tree, units);
-  if (std::optional<Polygon> result = to_clean_polygon(tree)) return *std::move(result);
-  std::vector<Ring> rings;
-  for (const clipper::PolyNode* node = tree.GetFirst(); node != nullptr; node = node->GetNext()) {
-    rings.push_back(to_ring(node->Contour));
-  }
-  return without_slivers(snap_overlay(rings, {}, kEvenOddUnion.inside));
+  return clip(offset_rings(polygon, units), kPositive);
 }
 
 }  // namespace geomap::geometry
