@@ -133,7 +133,7 @@ class Tracer {
 
   bool are_neighbours(const GridEdge& e, const GridEdge& f) const {
     const std::size_t size = rings_[e.ring]->size();
-    return e.ring == f.ring && ((e.index + 1) % size == f.index || (f.index + 1) % size == e.index);
+    return e.ring == f.ring && (follows(f, e, size) || follows(e, f, size));
   }
 
   void add_crossing(const GridEdge& e, const GridEdge& f) {

@@ -36,6 +36,11 @@ inline void append_edges(const Ring& ring, std::uint32_t ring_number,
   }
 }
 
+/// @brief True when f begins where e ends, of two edges of one ring with `size` vertices.
+inline bool follows(const GridEdge& f, const GridEdge& e, std::size_t size) {
+  return f.index == e.index + 1 || (f.index == 0 && e.index + 1 == size);
+}
+
 /// @brief Calls visit(e, f) once for every two edges whose boxes meet, until it returns false.
 /// Sorts the edges by x, so that outlines cost little more than their number of edges.
 template <typename Visit>

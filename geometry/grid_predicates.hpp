@@ -29,7 +29,12 @@ inline Int128 dot(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
 inline int sign(Int128 value) { return (value > 0) - (value < 0); }
 
 /// @brief 1 when c lies left of the line from a to b, -1 when right, 0 when on it.
-inline int orientation(GridPoint a, GridPoint b, GridPoint c) { return sign(cross(a, b, a, c)); }
+inline int orientation(GridPoint a, GridPoint b, GridPoint c) {
+  std::int64_t p = 0, q = 0;  // 64 bits are enough but for points at opposite ends of the grid
+  const bool is_wide = __builtin_mul_overflow(dx(a, b), dy(a, c), &p) ||
+                       __builtin_mul_overflow(dy(a, b), dx(a, c), &q);
+  return is_wide ? sign(cross(a, b, a, c)) : (p > q) - (p < q);
+}
 
 /// @brief Twice the signed area [grid unit²], positive counter-clockwise.
 inline Int128 twice_area(const Ring& ring) {

@@ -55,7 +55,7 @@ Polygon simplify(const Polygon& polygon, double tolerance, const FixedRule& is_f
   double allowed = tolerance;
   for (int attempt = 0; attempt < kAttempts; ++attempt, allowed /= 2.0) {
     Polygon result = collapsed(polygon, allowed, is_fixed);
-    if (find_fault(result).empty()) return result;
+    if (find_nesting_fault(result).empty()) return result;
   }
   return canonical(polygon);
 }

@@ -46,8 +46,7 @@ bool crosses_where_touching(const GridEdge& e, const Ring& e_ring, const GridEdg
 // Two edges of one ring may only meet as neighbours, in their common vertex.
 bool breaks_simplicity(const GridEdge& e, const GridEdge& f, std::size_t size) {
   if (e.a == e.b || f.a == f.b) return true;
-  const bool e_before_f = (e.index + 1) % size == f.index;
-  const bool f_before_e = (f.index + 1) % size == e.index;
+  const bool e_before_f = follows(f, e, size), f_before_e = follows(e, f, size);
   if (!e_before_f && !f_before_e) return meeting(e.a, e.b, f.a, f.b) != Meeting::kApart;
   const GridEdge& first = e_before_f ? e : f;
   const GridEdge& second = e_before_f ? f : e;
