@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "geometry/polygon_clip.hpp"
 #include "geometry/polygon_simplify.hpp"
@@ -28,6 +29,14 @@ std::vector<GridPoint> sorted_vertices(const Polygon& polygon) {
   }
   std::sort(vertices.begin(), vertices.end());
   return vertices;
+}
+
+// Without parts that no disc of this diameter fits in.
+Polygon without_slivers(Polygon polygon, double diameter) {
+  std::erase_if(polygon.parts, [&](const geometry::PolygonPart& part) {
+    return geometry::signed_area(part.outer) < 0.25 * std::numbers::pi * diameter * diameter;
+  });
+  return polygon;
 }
 
 // Most that one view may weigh [1/m²]. Its offset is no better than the camera's pose, however many
@@ -114,7 +123,7 @@ void rebase_where_needed(MapFeature& feature, double angle_limit) {
 
 Polygon united_outline(const Polygon& old_outline, const Polygon& added, double tolerance) {
   // What is left of the excess when half the tolerance is worn off on each side is where it counts.
-  const Polygon excess = geometry::subtract(added, old_outline);
+  const Polygon excess = without_slivers(geometry::subtract(added, old_outline), tolerance);
   const Polygon core = geometry::offset(excess, -0.5 * tolerance);
   if (core.empty()) return old_outline;
   // Grown back, and by as much again so that it overlaps the old outline.

@@ -135,12 +135,13 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
   const auto grown = [&](const Eigen::AlignedBox2d& box) {
     return Eigen::AlignedBox2d(box.min() - reach, box.max() + reach);
   };
-  const Eigen::AlignedBox2d common = grown(geometry::bounding_box(a.surface.polygon))
-                                         .intersection(grown(extent_in(frame, b.surface)));
-  if (common.isEmpty()) {
+  const Eigen::AlignedBox2d box_a = geometry::bounding_box(a.surface.polygon);
+  const Eigen::AlignedBox2d box_b = extent_in(frame, b.surface);
+  if (!grown(box_a).intersects(box_b)) {  // only one of them will be grown
     result.difference = Difference::kOverlap;
     return result;
   }
+  const Eigen::AlignedBox2d common = grown(box_a).intersection(grown(box_b));
   if (least_distance(a_in_frame, b_in_frame, common) > largest_distance(view_a, view_b, config)) {
     result.difference = Difference::kDistance;
     return result;
