@@ -282,6 +282,24 @@ TEST(GeometricMap, BeyondItsHistoryAMapRefusesToReachBack) {
   EXPECT_EQ(hash_of(map), folded_hash(others));
 }
 
+TEST(GeometricMap, WhatAKeyframeIsComparedWithDoesNotDependOnWhatIsFarAway) {
+  const std::vector<ObservationPtr> views = noisy_views(20);
+  const auto candidates_beside = [&](int rooms) {
+    GeometricMap map = empty_map();
+    for (int i = 1; i <= rooms; ++i) {
+      auto elsewhere = std::make_shared<Observation>(*views[0]);
+      elsewhere->keyframe = i;
+      elsewhere->T_world_camera.translation() += Vector3d(8.0 * (i % 7), 8.0 * (1 + i / 7), 0.0);
+      map.apply(std::move(elsewhere));
+    }
+    std::vector<std::int64_t> candidates;
+    for (const ObservationPtr& view : views) candidates.push_back(map.apply(view).candidates);
+    return candidates;
+  };
+  EXPECT_EQ(candidates_beside(40), candidates_beside(0));
+  EXPECT_GT(candidates_beside(0).back(), 0);
+}
+
 TEST(GeometricMap, TheChangesAddUpToTheMap) {
   GeometricMap map = empty_map();
   std::set<FeatureId> ids;
