@@ -2,6 +2,7 @@
 #include "geometry/crossing_overlay.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -47,6 +48,9 @@ struct GridBox {
       }
     }
   }
+  bool holds(GridPoint p) const {
+    return lower.x <= p.x && p.x <= upper.x && lower.y <= p.y && p.y <= upper.y;
+  }
   bool meets(const GridEdge& edge) const {
     return edge.min_x <= upper.x && edge.max_x >= lower.x && edge.min_y <= upper.y &&
            edge.max_y >= lower.y;
@@ -77,14 +81,14 @@ class Tracer {
          InsideRule inside)
       : rings_(a.begin(), a.end()),
         rings_of_a_(a.size()),
+        boxes_{GridBox(a), GridBox(b)},
         operands_are_simple_(operands_are_simple),
         inside_(inside) {
     rings_.insert(rings_.end(), b.begin(), b.end());
     for (std::uint32_t i = 0; i < rings_.size(); ++i) append_edges(*rings_[i], i, edges_);
     if (!operands_are_simple) return;
-    const GridBox box_of_a(a), box_of_b(b);
     std::erase_if(edges_, [&](const GridEdge& edge) {
-      return !(operand_of(edge.ring) == 0 ? box_of_b : box_of_a).meets(edge);
+      return !boxes_[1 - operand_of(edge.ring)].meets(edge);
     });
   }
 
@@ -153,6 +157,7 @@ class Tracer {
     const Ring& ring = *rings_[number];
     const std::uint32_t operand = operand_of(number);
     Windings right{0, 0};
+    if (operands_are_simple_ && !boxes_[1 - operand].holds(ring[start])) return right;
     for (std::uint32_t i = 0; i < rings_.size(); ++i) {
       const bool is_known = i == number || (operands_are_simple_ && operand_of(i) == operand);
       if (!is_known) right[operand_of(i)] += winding_number(*rings_[i], ring[start]);
@@ -240,6 +245,7 @@ class Tracer {
 
   std::vector<const Ring*> rings_;  // of a, then of b
   std::size_t rings_of_a_;
+  std::array<GridBox, 2> boxes_;  // of the operands
   bool operands_are_simple_;
   InsideRule inside_;
   std::vector<GridEdge> edges_;    // those that may cross another

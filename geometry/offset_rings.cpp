@@ -11,28 +11,37 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d outward_normal(GridPoint from, GridPoint to) {
-  return Vector2d(static_cast<double>(to.y) - from.y, static_cast<double>(from.x) - to.x)
-      .normalized();
-}
+struct Edge {
+  Edge(GridPoint from, GridPoint to)
+      : outward(static_cast<double>(to.y) - from.y, static_cast<double>(from.x) - to.x),
+        length(outward.norm()) {
+    outward /= length;
+  }
+  Vector2d outward;  // normal
+  double length;     // [grid unit]
+};
 
 // The ring of the moved edges, corner by corner.
 class OffsetRing {
  public:
   explicit OffsetRing(double distance) : distance_(distance) {}
 
-  // `before` and `after` are the outward normals of the edges that meet in the corner.
-  void add_corner(GridPoint corner, const Vector2d& before, const Vector2d& after) {
+  void add_corner(GridPoint corner, const Edge& edge_before, const Edge& edge_after) {
+    const Vector2d &before = edge_before.outward, &after = edge_after.outward;
     const double sine = before.x() * after.y() - before.y() * after.x();
     const double cosine = before.dot(after);
+    const double lengthening = distance_ * sine / (1.0 + cosine);  // of both edges, by a mitre
+    const bool is_shorter = lengthening < 0.0;
+    // An edge of which both corners leave half does not turn round.
+    const bool leaves_half = -2.0 * lengthening <= std::min(edge_before.length, edge_after.length);
     if (std::abs(sine * distance_) < 1.0 && cosine > 0.0) {  // straight to within a grid unit
       add(corner, distance_ * before);
-    } else if (sine * distance_ < 0.0) {  // the moved edges cross: past the corner, so that they do
+    } else if (is_shorter ? leaves_half : 1.0 + cosine >= 2.0 / (kMitreLimit * kMitreLimit)) {
+      add(corner, distance_ / (1.0 + cosine) * (before + after));
+    } else if (is_shorter) {  // by way of the corner, so that all that the loop encloses is inside
       add(corner, distance_ * before);
       add(corner, Vector2d::Zero());
       add(corner, distance_ * after);
-    } else if (1.0 + cosine >= 2.0 / (kMitreLimit * kMitreLimit)) {
-      add(corner, distance_ / (1.0 + cosine) * (before + after));
     } else {  // cut off at the distance
       const double along = std::tan(std::atan2(sine, cosine) / 4.0);
       add(corner, distance_ * (before + along * Vector2d(-before.y(), before.x())));
@@ -63,10 +72,10 @@ std::vector<Ring> offset_rings(const Polygon& polygon, double distance) {
   std::vector<Ring> result;
   for (const Ring* ring : rings_of(polygon)) {
     OffsetRing moved(distance);
-    Vector2d before = outward_normal(ring->back(), ring->front());
+    Edge before(ring->back(), ring->front());
     for (std::size_t i = 0; i < ring->size(); ++i) {
       const GridPoint corner = (*ring)[i];
-      const Vector2d after = outward_normal(corner, (*ring)[i + 1 == ring->size() ? 0 : i + 1]);
+      const Edge after(corner, (*ring)[i + 1 == ring->size() ? 0 : i + 1]);
       moved.add_corner(corner, before, after);
       before = after;
     }

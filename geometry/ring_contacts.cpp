@@ -84,17 +84,17 @@ RingContacts find_contacts(std::span<const Ring* const> rings) {
 
 Side locate(GridPoint p, const Ring& ring) {
   bool inside = false;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const GridPoint a = ring[i], b = ring[after(i, ring)];
-    if (a == p) return Side::kBorder;
-    if ((a.y > p.y) == (b.y > p.y)) {
-      const bool along = a.y == p.y && b.y == p.y && (a.x > p.x) != (b.x > p.x);
-      if (along) return Side::kBorder;
-      continue;
+  GridPoint a = ring.back();
+  for (const GridPoint b : ring) {
+    if ((a.y > p.y) != (b.y > p.y)) {
+      const int side = orientation(a, b, p);
+      if (side == 0) return Side::kBorder;
+      if ((side > 0) == (b.y > a.y)) inside = !inside;
+    } else if (b.y == p.y) {
+      const bool along = a.y == p.y && (a.x > p.x) != (b.x > p.x);
+      if (along || b.x == p.x) return Side::kBorder;
     }
-    const int side = orientation(a, b, p);
-    if (side == 0) return Side::kBorder;
-    if ((side > 0) == (b.y > a.y)) inside = !inside;
+    a = b;
   }
   return inside ? Side::kInside : Side::kOutside;
 }
