@@ -85,14 +85,10 @@ class Tracer {
         operands_are_simple_(operands_are_simple),
         inside_(inside) {
     rings_.insert(rings_.end(), b.begin(), b.end());
-    for (std::uint32_t i = 0; i < rings_.size(); ++i) append_edges(*rings_[i], i, edges_);
-    if (!operands_are_simple) return;
-    std::erase_if(edges_, [&](const GridEdge& edge) {
-      return !boxes_[1 - operand_of(edge.ring)].meets(edge);
-    });
+    for (std::uint32_t i = 0; i < rings_.size(); ++i) append_near_edges(i);
   }
 
-  std::optional<std::vector<Ring>> trace() {
+  std::optional<TracedBorder> trace() {
     if (!find_crossings()) return std::nullopt;
     joints_.resize(points_.size());
     auto begin = passages_.cbegin();
@@ -107,11 +103,20 @@ class Tracer {
       begin = end;
     }
     if (!join_stretches()) return std::nullopt;
-    return std::move(border_);
+    return TracedBorder{std::move(border_), !points_.empty()};
   }
 
  private:
   std::uint32_t operand_of(std::uint32_t ring) const { return ring < rings_of_a_ ? 0 : 1; }
+
+  void append_near_edges(std::uint32_t number) {
+    const Ring& ring = *rings_[number];
+    const GridBox& other = boxes_[1 - operand_of(number)];
+    for (std::uint32_t i = 0; i < ring.size(); ++i) {
+      const GridEdge edge(ring[i], ring[i + 1 == ring.size() ? 0 : i + 1], number, i);
+      if (!operands_are_simple_ || other.meets(edge)) edges_.push_back(edge);
+    }
+  }
 
   // False where rings touch.
   bool find_crossings() {
@@ -257,12 +262,11 @@ class Tracer {
 
 }  // namespace
 
-std::optional<std::vector<Ring>> trace_overlay(const Polygon& a, const Polygon& b,
-                                               InsideRule inside) {
+std::optional<TracedBorder> trace_overlay(const Polygon& a, const Polygon& b, InsideRule inside) {
   return Tracer(rings_of(a), rings_of(b), true, inside).trace();
 }
 
-std::optional<std::vector<Ring>> trace_overlay(std::span<const Ring> rings, InsideRule inside) {
+std::optional<TracedBorder> trace_overlay(std::span<const Ring> rings, InsideRule inside) {
   std::vector<const Ring*> pointers;
   for (const Ring& ring : rings) pointers.push_back(&ring);
   return Tracer(pointers, {}, false, inside).trace();

@@ -10,18 +10,22 @@
 
 namespace geomap::geometry {
 
+/// @brief Rings with the area on their left.
+struct TracedBorder {
+  std::vector<Ring> rings;
+  bool has_crossings = false;  // rounded to the grid, after which rings may touch or cross
+};
+
 /// @brief Border of the area of two polygons that `inside` tells, where their borders meet in
 /// crossings only: winding numbers are carried along the rings from crossing to crossing, and the
 /// stretches that bound the area are joined (after Weiler, Atherton, "Hidden surface removal using
 /// polygon area sorting", SIGGRAPH 1977). Nothing where borders touch or share a stretch.
 ///
-/// Costs little more than copying the rings. The area lies on the left of every ring; crossings are
-/// rounded to the grid, after which rings may touch or cross.
-std::optional<std::vector<Ring>> trace_overlay(const Polygon& a, const Polygon& b,
-                                               InsideRule inside);
+/// Costs little more than copying the rings.
+std::optional<TracedBorder> trace_overlay(const Polygon& a, const Polygon& b, InsideRule inside);
 
 /// @brief The same for the area of any rings, which may cross themselves and each other; they are
 /// the rule's first operand.
-std::optional<std::vector<Ring>> trace_overlay(std::span<const Ring> rings, InsideRule inside);
+std::optional<TracedBorder> trace_overlay(std::span<const Ring> rings, InsideRule inside);
 
 }  // namespace geomap::geometry

@@ -89,9 +89,10 @@ std::optional<Polygon> checked(Polygon polygon) {
   return canonical(std::move(polygon));
 }
 
-std::optional<Polygon> to_clean_polygon(const std::optional<std::vector<Ring>>& rings) {
-  if (!rings) return {};
-  return checked(assemble_parts(*rings));
+std::optional<Polygon> to_clean_polygon(const std::optional<TracedBorder>& border) {
+  if (!border) return {};
+  Polygon polygon = assemble_parts(border->rings);
+  return border->has_crossings ? checked(std::move(polygon)) : without_slivers(std::move(polygon));
 }
 
 // The clipper's tree of rings as a polygon.
