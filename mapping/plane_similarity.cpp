@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geometry/angles.hpp"
+#include "geometry/offset_rings.hpp"
 #include "geometry/polygon_clip.hpp"
 #include "mapping/fuse.hpp"
 
@@ -13,9 +14,6 @@ namespace geomap::mapping {
 namespace {
 
 using geometry::Plane;
-
-// A corner of a grown polygon may lie this many times the distance away from it.
-constexpr double kMitreLimit = 3.0;
 
 // How well features are known. A single view, however small, is taken to be as good as a view can
 // be: that a small patch weighs little in a fusion does not make it likelier to belong anywhere.
@@ -70,6 +68,10 @@ Eigen::AlignedBox2d extent_in(const geometry::PlaneFrame& frame,
     }
   }
   return box;
+}
+
+double common_area(const Eigen::AlignedBox2d& a, const Eigen::AlignedBox2d& b) {
+  return a.intersects(b) ? a.intersection(b).volume() : 0.0;
 }
 
 // Least distance of two planes of one frame along its normal, over a box.
@@ -131,17 +133,20 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
   const Eigen::Isometry3d T_frame_world = frame.T_plane_parent();
   const Plane a_in_frame = plane_a.transformed(T_frame_world);
   const Plane b_in_frame = plane_b.transformed(T_frame_world);
-  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kMitreLimit * config.gap);
+  const Eigen::Vector2d reach =
+      Eigen::Vector2d::Constant(geometry::kMitreLimit * config.gap + geometry::kGridUnit);
   const auto grown = [&](const Eigen::AlignedBox2d& box) {
     return Eigen::AlignedBox2d(box.min() - reach, box.max() + reach);
   };
   const Eigen::AlignedBox2d box_a = geometry::bounding_box(a.surface.polygon);
   const Eigen::AlignedBox2d box_b = extent_in(frame, b.surface);
-  if (!grown(box_a).intersects(box_b)) {  // only one of them will be grown
+  const Eigen::AlignedBox2d common = grown(box_a).intersection(grown(box_b));
+  const double most_overlap =  // only one of them will be grown
+      std::max(common_area(grown(box_a), box_b), common_area(box_a, grown(box_b)));
+  if (common.isEmpty() || most_overlap < config.min_overlap_area) {
     result.difference = Difference::kOverlap;
     return result;
   }
-  const Eigen::AlignedBox2d common = grown(box_a).intersection(grown(box_b));
   if (least_distance(a_in_frame, b_in_frame, common) > largest_distance(view_a, view_b, config)) {
     result.difference = Difference::kDistance;
     return result;
