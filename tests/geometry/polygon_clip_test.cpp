@@ -7,12 +7,14 @@
 #include <array>
 #include <limits>
 
+#include "geometry/offset_rings.hpp"
 #include "geometry/random_polygons.hpp"
 
 namespace geomap::geometry {
 namespace {
 
 using testing::box_ring;
+using testing::distance_to_outline;
 using testing::outline_length;
 using testing::polygon_of;
 using testing::RandomShapes;
@@ -283,20 +285,47 @@ TEST(Offset, SharpCornersDoNotFlyOff) {
   EXPECT_LT(bounding_box(grown).max().x(), 5.0 + 2.5 * 0.05);
 }
 
-TEST(Offset, EveryPointGrownByTheDistanceIsCovered) {
-  RandomShapes random(21);
-  const Polygon polygon = random.jagged_polygon(40, 0.15);
-  const Polygon grown = offset(polygon, 0.03);
-  expect_valid(grown, "grown");
-  for (int i = 0; i < 3000; ++i) {
-    const Eigen::Vector2d p(random.between(-1.4, 1.4), random.between(-1.4, 1.4));
-    const double distance = testing::distance_to_outline(polygon, p);
-    if (contains(polygon, p)) {
-      EXPECT_TRUE(contains(grown, p));
-    } else if (distance > 0.03 * 2.6) {
-      EXPECT_FALSE(contains(grown, p)) << p.transpose();
+TEST(Offset, MovesTheOutlineByTheDistanceAndAtCornersByNoMoreThanTheMitreLimit) {
+  RandomShapes random(12);
+  constexpr double kRounding = 3 * kGridUnit;
+  int kept = 0, lost = 0;
+  for (int round = 0; round < 40; ++round) {
+    const Polygon polygon = random.jagged_polygon(80, 0.4);  // edges of centimetres
+    const double distance = random.between(0.005, 0.08);
+    const Polygon grown = offset(polygon, distance), shrunk = offset(polygon, -distance);
+    expect_valid(grown, "grown");
+    expect_valid(shrunk, "shrunk");
+    for (int i = 0; i < 300; ++i) {
+      const Eigen::Vector2d point(random.between(-1.6, 1.6), random.between(-1.6, 1.6));
+      const double away = distance_to_outline(polygon, point);
+      const bool is_inside = contains(polygon, point);
+      const bool is_near = away < distance - kRounding;
+      const bool is_far = away > kMitreLimit * distance + kRounding;
+      if (is_inside || is_near) {
+        EXPECT_TRUE(contains(grown, point)) << round;
+      }
+      if (!is_inside && is_far) {
+        EXPECT_FALSE(contains(grown, point)) << round;
+      }
+      if (!is_inside || is_near) {
+        EXPECT_FALSE(contains(shrunk, point)) << round;
+      }
+      if (is_inside && is_far) {
+        EXPECT_TRUE(contains(shrunk, point)) << round;
+      }
+      kept += is_inside && is_far ? 1 : 0;
+      lost += is_inside && is_near ? 1 : 0;
     }
   }
+  EXPECT_GT(kept, 100);
+  EXPECT_GT(lost, 100);
+}
+
+TEST(Offset, NothingIsLeftOfWhatIsThinnerThanTwiceTheDistance) {
+  EXPECT_TRUE(offset(polygon_of({box_ring(0, 0, 30, 30)}), -0.005).empty()) << "turned round twice";
+  EXPECT_TRUE(offset(polygon_of({box_ring(0, 0, 9000, 90)}), -0.005).empty()) << "and once";
+  const Polygon left = offset(polygon_of({box_ring(0, 0, 9000, 120)}), -0.005);
+  EXPECT_EQ(left, polygon_of({box_ring(50, 50, 8950, 70)}));
 }
 
 TEST(Offset, RefusesDistancesThatLeaveTheGrid) {
