@@ -85,6 +85,9 @@ class Tracer {
         operands_are_simple_(operands_are_simple),
         inside_(inside) {
     rings_.insert(rings_.end(), b.begin(), b.end());
+    std::size_t edges = 0;
+    for (const Ring* ring : rings_) edges += ring->size();
+    edges_.reserve(edges);
     for (std::uint32_t i = 0; i < rings_.size(); ++i) append_near_edges(i);
   }
 

@@ -32,8 +32,9 @@ Search find_partner(const MapFeature& feature, const FeatureStore& store,
     ++search.candidates;
     const MapFeature& other = store.at(id);
     const bool other_is_older = other.id < feature.id;
-    Similarity likeness =
-        other_is_older ? compare(other, feature, config) : compare(feature, other, config);
+    const MapFeature &older = other_is_older ? other : feature,
+                     &younger = other_is_older ? feature : other;
+    Similarity likeness = compare(older, younger, config, best ? best->overlap : 0.0);
     if (likeness.difference != Difference::kNone) continue;
     if (!best || likeness.overlap > best->overlap) {
       best = Partner{id, likeness.overlap, std::move(likeness.b_in_a)};

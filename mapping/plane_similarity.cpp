@@ -111,7 +111,8 @@ double largest_distance(double view_a, double view_b, const MergeConfig& config)
 
 }  // namespace
 
-Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& config) {
+Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& config,
+                   double overlap_to_beat) {
   Similarity result;
   const Plane& plane_a = a.surface.plane;
   const Plane& plane_b = b.surface.plane;
@@ -143,7 +144,7 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
   const Eigen::AlignedBox2d common = grown(box_a).intersection(grown(box_b));
   const double most_overlap =  // only one of them will be grown
       std::max(common_area(grown(box_a), box_b), common_area(box_a, grown(box_b)));
-  if (common.isEmpty() || most_overlap < config.min_overlap_area) {
+  if (common.isEmpty() || most_overlap < std::max(config.min_overlap_area, overlap_to_beat)) {
     result.difference = Difference::kOverlap;
     return result;
   }

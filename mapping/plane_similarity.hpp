@@ -31,6 +31,9 @@ struct Similarity {
 /// single view has (view_variance: pose and sensor) and that no averaging removes. Replaces
 /// equation 6 of the paper, which compares d at the world's origin: there a 3° error 8 m away reads
 /// as 0.4 m. The result does not depend on where the world's origin is.
-Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& config);
+/// @param overlap_to_beat [m²] pairs whose boxes tell that they overlap by less are kOverlap
+/// without a closer look.
+Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& config,
+                   double overlap_to_beat = 0.0);
 
 }  // namespace geomap::mapping
