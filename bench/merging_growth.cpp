@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -25,8 +26,8 @@ constexpr int kRooms = 40;                                            // in a ro
 constexpr double kSpacing = 10.0;                                     // of rooms 4 m wide [m]
 constexpr double kDepthSigma = 0.002;                                 // [m]
 constexpr std::uint32_t kViews = 4;                                   // that a room is mapped from
-constexpr std::uint32_t kAddedViews = 40;                             // of which each is timed,
-constexpr int kRuns = 5;                                              // as often
+constexpr std::uint32_t kAddedViews = 40;                             // of which each is timed
+constexpr std::size_t kRuns = 5;  // in each; the least time counts
 
 // Around the middle of the room, noise and all from the number.
 Observation view_of_room(std::uint32_t number) {
@@ -76,30 +77,25 @@ class Rooms {
 };
 
 struct Cost {
-  std::size_t features = 0;  // in the map
-  double candidates = 0.0;   // visited, a key frame
-  double median = 0.0;       // merging a key frame [ms]
-  double mean = 0.0;         // with the copies of the map's state that every few key frames keep
+  std::size_t features = 0;   // in the map before
+  double candidates = 0.0;    // visited, a key frame
+  double mean = 0.0;          // merging a key frame, copies of the state now and then included [ms]
+  std::vector<double> least;  // of all runs, by key frame [ms]
 };
 
-Cost cost_of(std::size_t features, const std::vector<Observation>& added) {
-  Cost cost;
-  std::vector<double> times;
-  for (int run = 0; run < kRuns; ++run) {
-    Rooms rooms;
-    rooms.grow_to(features);
-    cost.features = rooms.features();
-    for (const Observation& view : added) {
-      mapping::ApplyResult result;
-      times.push_back(bench::milliseconds([&] { result = rooms.add(view, 0); }));
-      cost.candidates += static_cast<double>(result.candidates);
-      cost.mean += times.back();
-    }
+void run(std::size_t features, const std::vector<Observation>& added, Cost& cost) {
+  Rooms rooms;
+  rooms.grow_to(features);
+  cost.features = rooms.features();
+  cost.least.resize(added.size(), std::numeric_limits<double>::infinity());
+  const double share = 1.0 / static_cast<double>(kRuns * added.size());
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    mapping::ApplyResult result;
+    const double time = bench::milliseconds([&] { result = rooms.add(added[i], 0); });
+    cost.candidates += share * static_cast<double>(result.candidates);
+    cost.mean += share * time;
+    cost.least[i] = std::min(cost.least[i], time);
   }
-  cost.candidates /= static_cast<double>(times.size());
-  cost.mean /= static_cast<double>(times.size());
-  cost.median = bench::median(times);
-  return cost;
 }
 
 void measure() {
@@ -108,14 +104,17 @@ void measure() {
   std::printf(
       "| features in the map | candidates | to the first | median [ms] | to the first "
       "| mean [ms] |\n|--:|--:|--:|--:|--:|--:|\n");
-  Cost first;
+  std::array<Cost, kSizes.size()> costs;
+  for (std::size_t i = 0; i < kRuns; ++i) {  // in turn: a busy machine slows all sizes alike
+    for (std::size_t size = 0; size < kSizes.size(); ++size) run(kSizes[size], added, costs[size]);
+  }
   double candidates = 1.0, slowest = 1.0;
-  for (const std::size_t size : kSizes) {
-    const Cost cost = cost_of(size, added);
-    if (size == kSizes.front()) first = cost;
-    const double visited = cost.candidates / first.candidates, time = cost.median / first.median;
+  for (const Cost& cost : costs) {
+    const double visited = cost.candidates / costs[0].candidates;
+    const double median = bench::median(cost.least);
+    const double time = median / bench::median(costs[0].least);
     std::printf("| %zu | %.2f | %.3f | %.3f | %.2f | %.3f |\n", cost.features, cost.candidates,
-                visited, cost.median, time, cost.mean);
+                visited, median, time, cost.mean);
     candidates = std::max({candidates, visited, 1.0 / visited});
     slowest = std::max(slowest, time);
   }
