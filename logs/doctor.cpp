@@ -3,9 +3,6 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
-#include <ifaddrs.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,7 +11,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -51,35 +47,28 @@ long read_setting(const std::filesystem::path& file) {
   return value;
 }
 
-// The address from which packets to the group would leave; nothing without a route.
-std::optional<in_addr> source_address(const MulticastUrl& url) {
-  sockaddr_in group{};
-  group.sin_family = AF_INET;
-  group.sin_port = htons(static_cast<std::uint16_t>(url.port));
-  if (inet_pton(AF_INET, url.group.c_str(), &group.sin_addr) != 1) return std::nullopt;
-  const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
-  if (descriptor < 0) return std::nullopt;
-  sockaddr_in own{};
-  socklen_t size = sizeof own;
-  const bool is_routed =
-      connect(descriptor, reinterpret_cast<const sockaddr*>(&group), sizeof group) == 0 &&
-      getsockname(descriptor, reinterpret_cast<sockaddr*>(&own), &size) == 0;
-  close(descriptor);
-  if (!is_routed) return std::nullopt;
-  return own.sin_addr;
-}
-
-std::string interface_of(const in_addr& address) {
-  ifaddrs* all = nullptr;
-  if (getifaddrs(&all) != 0) return "?";
-  std::string name = "?";
-  for (const ifaddrs* at = all; at != nullptr; at = at->ifa_next) {
-    if (at->ifa_addr == nullptr || at->ifa_addr->sa_family != AF_INET) continue;
-    const auto* own = reinterpret_cast<const sockaddr_in*>(at->ifa_addr);
-    if (own->sin_addr.s_addr == address.s_addr) name = at->ifa_name;
+// The interface through which packets to the group leave, by the longest matching entry of the
+// system's table of routes; empty without a route.
+std::string interface_to(const std::string& group) {
+  in_addr address{};
+  if (inet_pton(AF_INET, group.c_str(), &address) != 1) return {};
+  std::ifstream table("/proc/net/route");
+  std::string line, best;
+  std::uint32_t best_mask = 0;
+  std::getline(table, line);  // the names of the columns
+  while (std::getline(table, line)) {
+    std::istringstream columns(line);
+    std::string interface, gateway, flags, references, use, metric;
+    std::uint32_t destination = 0, mask = 0;  // in the order of bytes that inet_pton gives
+    columns >> interface >> std::hex >> destination >> gateway >> flags >> references >> use >>
+        metric >> mask;
+    const bool is_longer = best.empty() || ntohl(mask) > best_mask;
+    if (columns && (address.s_addr & mask) == destination && is_longer) {
+      best = interface;
+      best_mask = ntohl(mask);
+    }
   }
-  freeifaddrs(all);
-  return name;
+  return best;
 }
 
 bool is_installed(const std::string& program) {
@@ -116,12 +105,11 @@ MulticastUrl parse_multicast_url(const std::string& url) {
 }
 
 std::vector<Finding> check_route(const MulticastUrl& url) {
-  const auto address = source_address(url);
-  if (!address) {
+  const std::string interface = interface_to(url.group);
+  if (interface.empty()) {
     return {{Level::kFault, "no route to the multicast group " + url.group + ": LCM cannot start",
              "sudo ip link set lo up; sudo ip route add 224.0.0.0/4 dev lo   # one machine"}};
   }
-  const std::string interface = interface_of(*address);
   std::vector<Finding> findings = {
       {Level::kGood, fmt::format("route to {} through {}", url.group, interface), {}}};
   if (url.ttl > 0) {
