@@ -11,6 +11,7 @@
 #include "geometry/polygon.hpp"
 #include "logs/git_revision.hpp"
 #include "logs/growth_pictures.hpp"
+#include "logs/other_file.hpp"
 #include "logs/trajectory_file.hpp"
 #include "mapping/export_file.hpp"
 #include "mapping/export_svg.hpp"
@@ -43,17 +44,6 @@ void check(const ReplayOptions& options) {
   if (options.passes < 1) throw messaging::ConfigError("--loop must be at least 1");
   if (options.pictures_every < 0) {
     throw messaging::ConfigError("--pictures-every must not be negative");
-  }
-}
-
-// Results must not replace what they are made from.
-void check_not_overwritten(const ReplayOptions& options) {
-  for (const std::filesystem::path& file :
-       {std::filesystem::path(options.log_out), options.output / "map.lcmlog"}) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(file, options.log, ignored)) {
-      throw messaging::ConfigError(file.string() + " is the log to replay: choose another name");
-    }
   }
 }
 
@@ -176,7 +166,8 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   check(options);
   const PipelineConfig settings = read_pipeline_config(config);
   messaging::LogReader(options.log);  // a wrong name shall not leave an empty folder behind
-  check_not_overwritten(options);
+  require_other_file(options.log, options.log_out);
+  require_other_file(options.log, options.output / "map.lcmlog");
   std::filesystem::create_directories(options.output);
   mapping::write_file(options.output / "config_used.yaml", config.to_yaml());
 

@@ -13,4 +13,9 @@ inline std::uint64_t read_unsigned(const std::uint8_t* bytes, std::size_t size) 
   return value;
 }
 
+/// @brief The inverse: the lowest `size` bytes of a number.
+inline void write_unsigned(std::uint64_t value, std::uint8_t* bytes, std::size_t size) {
+  for (std::size_t i = size; i-- > 0; value >>= 8) bytes[i] = static_cast<std::uint8_t>(value);
+}
+
 }  // namespace geomap::messaging

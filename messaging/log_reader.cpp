@@ -13,10 +13,6 @@
 namespace geomap::messaging {
 namespace {
 
-// An event is a magic word, number, time stamp, length of the channel name, length of the data
-// (big-endian, 4, 8, 8, 4 and 4 bytes), the channel name and the data.
-constexpr std::array<std::uint8_t, 4> kMagic = {0xED, 0xA1, 0xDA, 0x01};
-constexpr std::size_t kHeaderSize = 28;
 constexpr std::int64_t kLongestChannel = 255;  // LCM itself sends 63
 constexpr std::int64_t kLargestData = std::int64_t{1} << 30;
 
@@ -31,7 +27,7 @@ struct LogReader::Header {
   bool is_cut_short = false;
 
   std::int64_t event_size() const {
-    return static_cast<std::int64_t>(kHeaderSize) + channel_length + data_length;
+    return static_cast<std::int64_t>(kLogHeaderSize) + channel_length + data_length;
   }
 };
 
@@ -59,9 +55,9 @@ std::optional<LogEvent> LogReader::next() {
       return std::nullopt;
     }
     const std::int64_t end = file_position_;
-    if (const auto swallowed = find_swallowed_event(*event, end)) {
-      damages_.push_back({position_, *swallowed - position_, false});
-      position_ = *swallowed;
+    if (const auto next_event = find_event_behind_damage(*event, end)) {
+      damages_.push_back({position_, *next_event - position_, false});
+      position_ = *next_event;
       continue;
     }
     position_ = end;
@@ -70,26 +66,36 @@ std::optional<LogEvent> LogReader::next() {
   return std::nullopt;
 }
 
-/// A header whose length was damaged may claim the events behind it. What ends where nothing
-/// begins, and holds a sound event, is such a one.
-std::optional<std::int64_t> LogReader::find_swallowed_event(const LogEvent& event,
-                                                            std::int64_t end) {
+/// A damaged length makes an event end where none begins. One that is too long covers the next
+/// sound event; one that is too short is followed, behind the rest of its data, by the event that
+/// the log counts next. Otherwise it is the header behind the event that is damaged, not its own.
+std::optional<std::int64_t> LogReader::find_event_behind_damage(const LogEvent& event,
+                                                                std::int64_t end) {
   if (ends_well(end)) return std::nullopt;
-  const std::int64_t data_at = end - static_cast<std::int64_t>(event.data.size());
-  for (auto at = event.data.begin();; ++at) {
-    at = std::search(at, event.data.end(), kMagic.begin(), kMagic.end());
-    if (at == event.data.end()) return std::nullopt;
-    const std::int64_t offset = data_at + (at - event.data.begin());
-    const std::optional<Header> header = read_header(offset);
-    if (header && !header->is_cut_short && ends_well(offset + header->event_size())) return offset;
+  const std::int64_t offset = find_sound_event(position_ + 1);
+  if (offset == size_) return std::nullopt;
+  const bool is_covered = offset < end;
+  const bool is_next = read_header(offset)->number == event.number + 1;
+  return is_covered || is_next ? std::optional(offset) : std::nullopt;
+}
+
+/// Where the next event that ends well begins at or behind `offset`; the end when there is none.
+std::int64_t LogReader::find_sound_event(std::int64_t offset) {
+  while (sound_event_ < offset) {
+    sound_event_ = find_magic(offset);
+    if (sound_event_ == size_) break;
+    const std::optional<Header> header = read_header(sound_event_);
+    if (header && !header->is_cut_short && ends_well(sound_event_ + header->event_size())) break;
+    offset = sound_event_ + 1;
   }
+  return sound_event_;
 }
 
 /// True where the file ends or the next event begins.
 bool LogReader::ends_well(std::int64_t offset) {
-  std::array<std::uint8_t, kMagic.size()> bytes{};
+  std::array<std::uint8_t, kLogMagic.size()> bytes{};
   return offset == size_ ||
-         (read_at(offset, bytes.data(), bytes.size()) == bytes.size() && bytes == kMagic);
+         (read_at(offset, bytes.data(), bytes.size()) == bytes.size() && bytes == kLogMagic);
 }
 
 /// Moves to the next sound header and notes what it passes over.
@@ -111,10 +117,10 @@ std::optional<LogReader::Header> LogReader::find_header() {
 }
 
 std::optional<LogReader::Header> LogReader::read_header(std::int64_t offset) {
-  std::array<std::uint8_t, kHeaderSize> bytes{};
+  std::array<std::uint8_t, kLogHeaderSize> bytes{};
   const std::size_t count = read_at(offset, bytes.data(), bytes.size());
-  const std::size_t compared = std::min(count, kMagic.size());
-  if (!std::equal(kMagic.begin(), kMagic.begin() + static_cast<std::ptrdiff_t>(compared),
+  const std::size_t compared = std::min(count, kLogMagic.size());
+  if (!std::equal(kLogMagic.begin(), kLogMagic.begin() + static_cast<std::ptrdiff_t>(compared),
                   bytes.begin()))
     return std::nullopt;
 
@@ -139,7 +145,7 @@ std::optional<LogEvent> LogReader::read_event(const Header& header) {
   event.log_utime = header.log_utime;
   event.channel.resize(static_cast<std::size_t>(header.channel_length));
   event.data.resize(static_cast<std::size_t>(header.data_length));
-  const std::int64_t channel_at = position_ + static_cast<std::int64_t>(kHeaderSize);
+  const std::int64_t channel_at = position_ + static_cast<std::int64_t>(kLogHeaderSize);
   const std::int64_t data_at = channel_at + header.channel_length;
   if (read_at(channel_at, event.channel.data(), event.channel.size()) != event.channel.size() ||
       read_at(data_at, event.data.data(), event.data.size()) != event.data.size()) {
@@ -150,12 +156,12 @@ std::optional<LogEvent> LogReader::read_event(const Header& header) {
 
 /// Where the next magic word begins at or behind `offset`; the end when there is none.
 std::int64_t LogReader::find_magic(std::int64_t offset) {
-  std::vector<std::uint8_t> buffer(1 << 16);
+  std::array<std::uint8_t, 4096> buffer;
   while (offset < size_) {
     const std::size_t count = read_at(offset, buffer.data(), buffer.size());
-    if (count < kMagic.size()) break;
+    if (count < kLogMagic.size()) break;
     const auto end = buffer.begin() + static_cast<std::ptrdiff_t>(count);
-    const auto found = std::search(buffer.begin(), end, kMagic.begin(), kMagic.end());
+    const auto found = std::search(buffer.begin(), end, kLogMagic.begin(), kLogMagic.end());
     if (found != end) return offset + (found - buffer.begin());
     offset += static_cast<std::int64_t>(count) - 3;  // a word may lie across two blocks
   }

@@ -8,16 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace geomap::messaging {
+#include "messaging/log_event.hpp"
 
-/// @brief One event of an LCM log.
-struct LogEvent {
-  std::int64_t number = 0;  // as the log counts
-  std::int64_t log_utime =
-      0;  // when the logger received it [us]; not monotonic, not the sensor's time
-  std::string channel;
-  std::vector<std::uint8_t> data;
-};
+namespace geomap::messaging {
 
 /// @brief Bytes of a log that hold no readable event.
 struct LogDamage {
@@ -58,7 +51,8 @@ class LogReader {
 
   std::optional<Header> read_header(std::int64_t offset);
   std::optional<Header> find_header();
-  std::optional<std::int64_t> find_swallowed_event(const LogEvent& event, std::int64_t end);
+  std::optional<std::int64_t> find_event_behind_damage(const LogEvent& event, std::int64_t end);
+  std::int64_t find_sound_event(std::int64_t offset);
   bool ends_well(std::int64_t offset);
   std::int64_t find_magic(std::int64_t offset);
   std::size_t read_at(std::int64_t offset, void* bytes, std::size_t size);
@@ -67,6 +61,7 @@ class LogReader {
   std::unique_ptr<std::FILE, CloseFile> file_;
   std::int64_t file_position_ = 0;  // of file_, so that reading in order never seeks
   std::int64_t position_ = 0;
+  std::int64_t sound_event_ = -1;  // what find_sound_event last found, so that it searches once
   std::int64_t size_ = 0;
   std::vector<LogDamage> damages_;
 };

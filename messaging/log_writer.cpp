@@ -36,6 +36,16 @@ void LogWriter::write_bytes(const std::string& channel, std::int64_t utime,
   if (file_->writeEvent(&event) != 0) fail();
 }
 
+void LogWriter::copy(const LogEvent& event) {
+  if (!file_) throw std::logic_error("LogWriter: written to after close()");
+  std::FILE* file = file_->getFilePtr();
+  const auto write = [&](const auto& bytes) {
+    return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  };
+  errno = 0;
+  if (!write(log_header(event)) || !write(event.channel) || !write(event.data)) fail();
+}
+
 void LogWriter::flush() {
   if (!file_) return;
   errno = 0;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "messaging/encode.hpp"
+#include "messaging/log_event.hpp"
 
 namespace lcm {
 class LogFile;
@@ -35,6 +36,8 @@ class LogWriter {
   }
   void write_bytes(const std::string& channel, std::int64_t utime,
                    std::span<const std::uint8_t> data);
+  /// @brief Appends an event of another log, byte for byte: its number stays what it was there.
+  void copy(const LogEvent& event);
 
   /// @brief Hands everything to the operating system, so that a crash of the program loses nothing.
   /// @throws std::runtime_error as above.

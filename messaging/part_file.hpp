@@ -12,8 +12,11 @@ namespace geomap::messaging {
 /// `out`.part, and keep() gives it its name, replacing an older one. Without keep() it is removed.
 class PartFile {
  public:
+  /// @brief The name under which `out` is written.
+  static std::string part_of(const std::string& out) { return out + ".part"; }
+
   /// @throws std::runtime_error when `out` exists and is not a regular file.
-  explicit PartFile(const std::string& out) : out_(out), part_(out + ".part") {
+  explicit PartFile(const std::string& out) : out_(out), part_(part_of(out)) {
     if (std::filesystem::exists(out_) && !std::filesystem::is_regular_file(out_)) {
       throw std::runtime_error(out + ": exists and is no regular file");
     }

@@ -102,6 +102,16 @@ void OptionParser::option(const std::string& names, std::int64_t& value, const s
   app_.add_option(names, value, help)->capture_default_str();
 }
 
+void OptionParser::option(const std::string& names, std::optional<double>& value,
+                          const std::string& help) {
+  app_.add_option(names, value, help);
+}
+
+void OptionParser::option(const std::string& names, std::optional<std::int64_t>& value,
+                          const std::string& help) {
+  app_.add_option(names, value, help);
+}
+
 void OptionParser::option(const std::string& names, std::vector<std::string>& values,
                           const std::string& help) {
   app_.add_option(names, values, help)

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,10 @@ class OptionParser {
   void option(const std::string& names, double& value, const std::string& help);
   void option(const std::string& names, int& value, const std::string& help);
   void option(const std::string& names, std::int64_t& value, const std::string& help);
+  /// @brief Without a default.
+  void option(const std::string& names, std::optional<double>& value, const std::string& help);
+  void option(const std::string& names, std::optional<std::int64_t>& value,
+              const std::string& help);
   /// @brief May be given more than once.
   void option(const std::string& names, std::vector<std::string>& values, const std::string& help);
   /// @brief Comma-separated numbers, exactly `count`, for example "--up 0,-1,0".

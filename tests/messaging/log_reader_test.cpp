@@ -99,19 +99,31 @@ TEST_F(LogReaderTest, ALogCutAnywhereGivesAllCompleteEvents) {
   }
 }
 
-TEST_F(LogReaderTest, BehindADamagedHeaderReadingResumes) {
+TEST_F(LogReaderTest, ADamagedMagicWordOrLengthLosesOnlyItsOwnEvent) {
   const std::string whole = read_file(write_log());
-  // Magic word, length of the channel, length of the data.
-  for (const std::size_t at : {std::size_t{1}, std::size_t{20}, std::size_t{24}}) {
-    std::string damaged = whole;
-    damaged[offsets_[7] + at] = '\x7f';
-    LogReader reader(write_file("damaged.lcmlog", damaged));
-    EXPECT_EQ(read_all(reader).size(), 19U) << "damaged at " << at;
-    ASSERT_EQ(reader.damages().size(), 1U);
-    EXPECT_EQ(reader.damages()[0].offset, static_cast<std::int64_t>(offsets_[7]));
-    EXPECT_EQ(reader.damages()[0].size, static_cast<std::int64_t>(offsets_[8] - offsets_[7]));
-    EXPECT_FALSE(reader.truncated());
+  std::vector<std::size_t> others(20);
+  std::iota(others.begin(), others.end(), std::size_t{0});
+  others.erase(others.begin() + 7);
+  // Magic word, length of the channel, length of the data; by little and by much, up and down.
+  for (const std::size_t at : {0, 1, 2, 3, 20, 21, 22, 23, 24, 25, 26, 27}) {
+    for (const int change : {-60, -5, -3, -2, -1, 1, 2, 3, 4, 5, 27, 28, 60, 127}) {
+      std::string damaged = whole;
+      damaged[offsets_[7] + at] = static_cast<char>(damaged[offsets_[7] + at] + change);
+      LogReader reader(write_file("damaged.lcmlog", damaged));
+      ASSERT_EQ(read_all(reader), others) << "byte " << at << " changed by " << change;
+      ASSERT_EQ(reader.damages().size(), 1U);
+      EXPECT_EQ(reader.damages()[0].offset, static_cast<std::int64_t>(offsets_[7]));
+      EXPECT_EQ(reader.damages()[0].size, static_cast<std::int64_t>(offsets_[8] - offsets_[7]));
+      EXPECT_FALSE(reader.truncated());
+    }
   }
+}
+
+TEST_F(LogReaderTest, AHeaderFullOfNoiseLosesOnlyItsOwnEvent) {
+  std::string damaged = read_file(write_log());
+  for (std::size_t i = 0; i < kHeaderSize; ++i) damaged[offsets_[19] + i] = static_cast<char>(i);
+  LogReader reader(write_file("noise.lcmlog", damaged));
+  EXPECT_EQ(read_all(reader).size(), 19U);
 }
 
 TEST_F(LogReaderTest, ALengthThatClaimsTheEventsBehindItLosesOnlyItsOwn) {

@@ -68,6 +68,19 @@ TEST_F(LogWriterTest, WritesLcmsFormatByteForByte) {
   EXPECT_EQ(read_file(path("bytes.lcmlog")), expected);
 }
 
+TEST_F(LogWriterTest, CopiesEventsOfAnotherLogWithTheirNumbers) {
+  LogWriter original(path("original.lcmlog"));
+  for (const std::int64_t utime : {30, -1, 20}) original.write("POSE", utime, pose_at(utime));
+  original.close();
+  LogReader reader(path("original.lcmlog"));
+  LogWriter copy(path("copy.lcmlog"));
+  reader.next();
+  while (const auto event = reader.next()) copy.copy(*event);
+  copy.close();
+  const std::string bytes = read_file(path("original.lcmlog"));
+  EXPECT_EQ(read_file(path("copy.lcmlog")), bytes.substr(bytes.size() / 3));
+}
+
 TEST_F(LogWriterTest, AnEmptyMessageIsAnEvent) {
   LogWriter writer(path("empty.lcmlog"));
   writer.write_bytes("NOTHING", 1, {});

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "logs/log_survey_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <ctime>
+
+namespace geomap::logs {
+namespace {
+
+using Row = std::array<std::string, 8>;
+
+/// A damaged name must not reach the terminal as it is.
+std::string printable(std::string name) {
+  for (char& c : name) {
+    if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
+  }
+  return name;
+}
+
+std::string size_text(double bytes) {
+  if (bytes < 1e3) return fmt::format("{:.0f} B", bytes);
+  if (bytes < 1e6) return fmt::format("{:.1f} kB", 1e-3 * bytes);
+  return fmt::format("{:.1f} MB", 1e-6 * bytes);
+}
+
+std::string size_text(std::int64_t bytes) { return size_text(static_cast<double>(bytes)); }
+
+/// "2012-06-26 09:00:00.123 UTC"
+std::string time_text(std::int64_t utime) {
+  const auto seconds = static_cast<std::time_t>(utime / 1'000'000);
+  std::tm utc{};
+  std::array<char, 32> text{};
+  if (utime < 0 || gmtime_r(&seconds, &utc) == nullptr ||
+      std::strftime(text.data(), text.size(), "%F %T", &utc) == 0) {
+    return fmt::format("{} us", utime);
+  }
+  return fmt::format("{}.{:03} UTC", text.data(), utime / 1000 % 1000);
+}
+
+std::string times_text(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+Row row_of(const std::string& name, const ChannelSurvey& channel) {
+  const bool has_rate = channel.rate() > 0.0;
+  return {printable(name),
+          channel.type == nullptr ? "unknown" : channel.type->name,
+          fmt::format("{}", channel.events),
+          has_rate ? fmt::format("{:.2f}", channel.rate()) : "-",
+          size_text(static_cast<double>(channel.bytes) / static_cast<double>(channel.events)),
+          size_text(channel.bytes),
+          has_rate ? size_text(channel.bandwidth()) + "/s" : "-",
+          channel.sequence ? fmt::format("{}", channel.sequence->missing()) : "-"};
+}
+
+/// Columns as wide as need be; names to the left, numbers to the right.
+std::string table(const std::vector<Row>& rows) {
+  std::array<std::size_t, std::tuple_size_v<Row>> widths{};
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    text += fmt::format("{:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
+    for (std::size_t i = 2; i < row.size(); ++i) {
+      text += fmt::format("  {:>{}}", row[i], widths[i]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string verdict(const LogSurvey& survey) {
+  const std::string events = times_text(survey.events, "readable event");
+  if (survey.is_whole()) return fmt::format("whole: {}\n", events);
+  return fmt::format("damaged: {} in {} unreadable, {} no message of its channel's type; {}\n",
+                     size_text(survey.damaged_bytes()), times_text(survey.damages.size(), "place"),
+                     survey.faulty_events(), events);
+}
+
+std::string damages_text(const LogSurvey& survey) {
+  std::string text;
+  for (const messaging::LogDamage& damage : survey.damages) {
+    text += fmt::format("offset {}: {} bytes {}\n", damage.offset, damage.size,
+                        damage.at_end ? "of a last event that is cut short" : "unreadable");
+  }
+  for (const auto& [name, channel] : survey.channels) {
+    for (const auto& [reason, events] : channel.faulty) {
+      text += fmt::format("offset {}: no {} on {}: {}{}\n", events.first_offset, channel.type->name,
+                          printable(name), messaging::to_string(reason),
+                          events.count == 1 ? "" : fmt::format(", the first of {}", events.count));
+    }
+  }
+  return text;
+}
+
+/// How it was recorded.
+std::string remarks_text(const LogSurvey& survey) {
+  std::string text;
+  for (const auto& [name, channel] : survey.channels) {
+    if (!channel.sequence || channel.sequence->missing() == 0) continue;
+    text +=
+        fmt::format("remark: {} missing on {} by sequence number\n",
+                    times_text(static_cast<std::size_t>(channel.sequence->missing()), "message"),
+                    printable(name));
+  }
+  if (survey.times_back.count > 0) {
+    text += fmt::format(
+        "remark: the log's time goes back {}, by at most {:.3f} s, first at offset {}\n",
+        times_text(survey.times_back.count, "time"), survey.farthest_back,
+        survey.times_back.first_offset);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string info_text(const LogSurvey& survey) {
+  std::vector<Row> rows = {
+      {"channel", "type", "events", "Hz", "mean size", "bytes", "bandwidth", "missing"}};
+  for (const auto& [name, channel] : survey.channels) rows.push_back(row_of(name, channel));
+  std::string text =
+      fmt::format("{}, {:.2f} s, {}\nfrom {}\nto   {}\n\n", times_text(survey.events, "event"),
+                  survey.duration(), size_text(survey.file_bytes), time_text(survey.first_utime),
+                  time_text(survey.last_utime)) +
+      table(rows) + "\n" + remarks_text(survey);
+  return text + verdict(survey);
+}
+
+std::string check_text(const LogSurvey& survey) {
+  return damages_text(survey) + remarks_text(survey) + verdict(survey);
+}
+
+}  // namespace geomap::logs
