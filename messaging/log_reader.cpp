@@ -16,6 +16,14 @@ namespace {
 constexpr std::int64_t kLongestChannel = 255;  // LCM itself sends 63
 constexpr std::int64_t kLargestData = std::int64_t{1} << 30;
 
+/// How far a number is behind another one; huge when it is before it.
+std::uint64_t distance_of_numbers(std::int64_t number, std::int64_t later) {
+  return static_cast<std::uint64_t>(later) - static_cast<std::uint64_t>(number);
+}
+
+/// Few events, even if they are damaged, can lie between numbers with this distance.
+bool is_soon(std::uint64_t distance) { return distance >= 1 && distance <= 100; }
+
 }  // namespace
 
 /// A header whose event lies within the file, or one that the end of the file cuts short.
@@ -66,29 +74,38 @@ std::optional<LogEvent> LogReader::next() {
   return std::nullopt;
 }
 
-/// A damaged length makes an event end where none begins. One that is too long covers the next
-/// sound event; one that is too short is followed, behind the rest of its data, by the event that
-/// the log counts next. Otherwise it is the header behind the event that is damaged, not its own.
+/// The next event, where this one's length is damaged. One that is too long covers events that the
+/// log counts soon after it. One that is too short ends where none begins, and is followed, behind
+/// the rest of its data, by the event that the log counts next; if that is another one, it is the
+/// header behind this event that is damaged.
 std::optional<std::int64_t> LogReader::find_event_behind_damage(const LogEvent& event,
                                                                 std::int64_t end) {
-  if (ends_well(end)) return std::nullopt;
-  const std::int64_t offset = find_sound_event(position_ + 1);
-  if (offset == size_) return std::nullopt;
-  const bool is_covered = offset < end;
-  const bool is_next = read_header(offset)->number == event.number + 1;
+  const std::optional<Header> follower = read_header(end);
+  if (follower && distance_of_numbers(event.number, follower->number) == 1) return std::nullopt;
+  const std::int64_t offset = find_sound_event(event.number, position_ + 1);
+  if (offset == size_ || offset == end) return std::nullopt;
+  const std::uint64_t distance = distance_of_numbers(event.number, read_header(offset)->number);
+  const bool is_covered = offset < end && (is_soon(distance) || !ends_well(end));
+  const bool is_next = offset > end && distance == 1;
   return is_covered || is_next ? std::optional(offset) : std::nullopt;
 }
 
-/// Where the next event that ends well begins at or behind `offset`; the end when there is none.
-std::int64_t LogReader::find_sound_event(std::int64_t offset) {
+/// Where, at or behind `offset`, the next event begins that ends well, or that the log counts soon
+/// after `number`; the end when there is none.
+std::int64_t LogReader::find_sound_event(std::int64_t number, std::int64_t offset) {
   while (sound_event_ < offset) {
     sound_event_ = find_magic(offset);
-    if (sound_event_ == size_) break;
-    const std::optional<Header> header = read_header(sound_event_);
-    if (header && !header->is_cut_short && ends_well(sound_event_ + header->event_size())) break;
+    if (sound_event_ == size_ || is_sound(sound_event_, number)) break;
     offset = sound_event_ + 1;
   }
   return sound_event_;
+}
+
+bool LogReader::is_sound(std::int64_t offset, std::int64_t number) {
+  const std::optional<Header> header = read_header(offset);
+  if (!header || header->is_cut_short) return false;
+  return is_soon(distance_of_numbers(number, header->number)) ||
+         ends_well(offset + header->event_size());
 }
 
 /// True where the file ends or the next event begins.

@@ -52,7 +52,8 @@ class LogReader {
   std::optional<Header> read_header(std::int64_t offset);
   std::optional<Header> find_header();
   std::optional<std::int64_t> find_event_behind_damage(const LogEvent& event, std::int64_t end);
-  std::int64_t find_sound_event(std::int64_t offset);
+  std::int64_t find_sound_event(std::int64_t number, std::int64_t offset);
+  bool is_sound(std::int64_t offset, std::int64_t number);
   bool ends_well(std::int64_t offset);
   std::int64_t find_magic(std::int64_t offset);
   std::size_t read_at(std::int64_t offset, void* bytes, std::size_t size);

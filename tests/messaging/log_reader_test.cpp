@@ -127,21 +127,35 @@ TEST_F(LogReaderTest, AHeaderFullOfNoiseLosesOnlyItsOwnEvent) {
 }
 
 TEST_F(LogReaderTest, ALengthThatClaimsTheEventsBehindItLosesOnlyItsOwn) {
-  const std::string file = write_log();
-  std::string bytes = read_file(file);
-  const std::size_t length_at = offsets_[5] + kHeaderSize - 4;
-  const auto claimed = written_[5].data.size() + 3000;
-  for (std::size_t i = 0; i < 4; ++i) {
-    bytes[length_at + i] = static_cast<char>(static_cast<unsigned char>(claimed >> (24 - 8 * i)));
-  }
-  LogReader reader(write_file("claims.lcmlog", bytes));
+  const std::string whole = read_file(write_log());
   std::vector<std::size_t> others(20);
   std::iota(others.begin(), others.end(), std::size_t{0});
   others.erase(others.begin() + 5);
-  EXPECT_EQ(read_all(reader), others);
-  ASSERT_EQ(reader.damages().size(), 1u);
-  EXPECT_EQ(reader.damages()[0].offset, static_cast<std::int64_t>(offsets_[5]));
-  EXPECT_EQ(reader.damages()[0].size, static_cast<std::int64_t>(offsets_[6] - offsets_[5]));
+  // Into the midst of an event, and exactly to where one begins.
+  for (const std::size_t end : {offsets_[8] + 1, offsets_[8], length_}) {
+    std::string bytes = whole;
+    const std::size_t claimed = end - (offsets_[5] + kHeaderSize + written_[5].channel.size());
+    for (std::size_t i = 0; i < 4; ++i) {
+      bytes[offsets_[5] + 24 + i] = static_cast<char>(claimed >> (24 - 8 * i));
+    }
+    LogReader reader(write_file("claims.lcmlog", bytes));
+    EXPECT_EQ(read_all(reader), others);
+    ASSERT_EQ(reader.damages().size(), 1u);
+    EXPECT_EQ(reader.damages()[0].offset, static_cast<std::int64_t>(offsets_[5]));
+    EXPECT_EQ(reader.damages()[0].size, static_cast<std::int64_t>(offsets_[6] - offsets_[5]));
+  }
+}
+
+TEST_F(LogReaderTest, ALogWithinAMessageIsAMessage) {
+  const std::string inner = read_file(write_log());
+  LogWriter writer(path("outer.lcmlog"));
+  for (int i = 0; i < 3; ++i) {
+    writer.copy({500 * i, 0, "LOG", std::vector<std::uint8_t>(inner.begin(), inner.end())});
+  }
+  writer.close();
+  LogReader reader(path("outer.lcmlog"));
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(reader.next()->data.size(), inner.size());
+  EXPECT_TRUE(reader.damages().empty());
 }
 
 TEST_F(LogReaderTest, AHugeLengthInAHeaderIsNotAllocated) {
