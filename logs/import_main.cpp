@@ -8,6 +8,8 @@
 #include "drivers/seven_scenes_source.hpp"
 #include "drivers/tum_source.hpp"
 #include "logs/import.hpp"
+#include "logs/import_log.hpp"
+#include "messaging/camera_config.hpp"
 #include "messaging/program.hpp"
 #include "messaging/progress_bar.hpp"
 
@@ -16,7 +18,7 @@ namespace {
 using namespace geomap;
 
 struct Options {
-  std::string format, folder, out, prior = "auto";
+  std::string format, input, out, channel, prior = "auto";
   std::int64_t from = 0, to = -1;
   std::vector<double> up;
   bool skip_bad = false;
@@ -24,9 +26,13 @@ struct Options {
 };
 
 void declare(messaging::OptionParser& parser, Options& options) {
-  parser.positional("DIR", options.folder, "folder of the data set");
+  parser.positional("INPUT", options.input, "folder of the data set, or LCM log");
   parser.positional("OUT", options.out, "log to write; replaced when the new one is whole");
-  parser.required("--format", options.format, "what DIR holds: 7scenes or tum");
+  parser.required("--format", options.format, "what INPUT is: 7scenes, tum or lcm");
+  parser.option(
+      "--channel", options.channel,
+      "of the frames in an LCM log (bot_core.images_t or kinect.frame_msg_t); empty: the one "
+      "that there is");
   parser.option("--from", options.from, "first frame: file number (7scenes) or position (tum)");
   parser.option("--to", options.to, "last frame, included; -1: the last there is");
   parser.numbers("--up", options.up, 3, "direction in the data set's world that becomes +z");
@@ -48,10 +54,10 @@ std::unique_ptr<drivers::FrameSource> open_source(const Options& options) {
   range.from = options.from;
   if (options.to >= 0) range.to = options.to;
   if (options.format == "7scenes") {
-    return std::make_unique<drivers::SevenScenesSource>(options.folder, range);
+    return std::make_unique<drivers::SevenScenesSource>(options.input, range);
   }
-  if (options.format == "tum") return std::make_unique<drivers::TumSource>(options.folder, range);
-  throw messaging::ConfigError("--format is 7scenes or tum, not '" + options.format + "'");
+  if (options.format == "tum") return std::make_unique<drivers::TumSource>(options.input, range);
+  throw messaging::ConfigError("--format is 7scenes, tum or lcm, not '" + options.format + "'");
 }
 
 logs::ImportSettings settings_of(const Options& options) {
@@ -71,7 +77,7 @@ logs::ImportSettings settings_of(const Options& options) {
   return settings;
 }
 
-int run(const Options& options) {
+int import_folder(const Options& options) {
   const logs::ImportSettings settings = settings_of(options);
   const std::unique_ptr<drivers::FrameSource> source = open_source(options);
   logs::ImportSummary summary;
@@ -91,6 +97,26 @@ int run(const Options& options) {
   return 0;
 }
 
+// Depth and colour of other camera drivers as our own frames; the rest of their log stays.
+int import_lcm_log(const Options& options, const messaging::Config& config) {
+  if (options.from != 0 || options.to != -1 || !options.up.empty() || options.prior != "auto") {
+    throw messaging::ConfigError(
+        "--from, --to, --up and --prior are for folders; geomap-log cuts parts out of logs");
+  }
+  logs::LogImportSettings settings;
+  settings.cameras = {config.read<messaging::CameraConfig>("driver_camera.depth").camera(),
+                      config.read<messaging::CameraConfig>("driver_camera.color").camera()};
+  settings.channel = options.channel;
+  settings.skip_bad = options.skip_bad;
+  const logs::LogImportSummary summary = logs::import_log(options.input, settings, options.out);
+  std::printf("%s: %s\n", options.out.c_str(), logs::to_string(summary).c_str());
+  return 0;
+}
+
+int run(const Options& options, const messaging::Config& config) {
+  return options.format == "lcm" ? import_lcm_log(options, config) : import_folder(options);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -98,8 +124,8 @@ int main(int argc, char** argv) {
   return messaging::run_program(
       argc, argv,
       {.name = "geomap-import",
-       .description = "Turns a folder of RGB-D frames into an LCM log.",
-       .uses_config = false},
+       .description = "Turns a folder of RGB-D frames, or a log of another LCM camera driver, into "
+                      "an LCM log with RGBD_FRAME."},
       [&](messaging::OptionParser& parser) { declare(parser, options); },
-      [&](const messaging::CommonOptions&) { return run(options); });
+      [&](const messaging::CommonOptions& common) { return run(options, common.config); });
 }

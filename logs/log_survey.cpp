@@ -12,11 +12,10 @@ namespace {
 
 using messaging::Field;
 using messaging::FieldType;
+using messaging::kFingerprintSize;
 using messaging::LogEvent;
 using messaging::MessageSchema;
 using messaging::RejectReason;
-
-constexpr std::size_t kFingerprintSize = 8;
 
 std::int64_t read_int64(const std::uint8_t* bytes) {
   return static_cast<std::int64_t>(messaging::read_unsigned(bytes, 8));
@@ -28,19 +27,29 @@ double seconds_between(std::int64_t first_utime, std::int64_t last_utime) {
 }
 
 const MessageSchema* type_of(const LogEvent& event) {
-  if (event.data.size() < kFingerprintSize) return nullptr;
-  return messaging::known_schemas().find(read_int64(event.data.data()));
+  const auto fingerprint = messaging::fingerprint_of(event.data);
+  return fingerprint ? messaging::known_schemas().find(*fingerprint) : nullptr;
 }
 
-/// The sequence number of a sound message whose type has one among the plain numbers at its head.
-std::optional<std::int64_t> sequence_of(const MessageSchema& type, const LogEvent& event) {
+/// One of the plain numbers at the head of a sound message.
+std::optional<std::int64_t> leading_number(const std::string& name, const MessageSchema& type,
+                                           const LogEvent& event) {
   std::size_t offset = kFingerprintSize;
   for (const Field& field : type.fields) {
     if (field.type != FieldType::kInt64 || field.array) break;
-    if (field.name == "sequence") return read_int64(event.data.data() + offset);
+    if (field.name == name) return read_int64(event.data.data() + offset);
     offset += messaging::encoded_size(field.type);
   }
   return std::nullopt;
+}
+
+void note_sequence(ChannelSurvey& channel, const LogEvent& event) {
+  const auto session = leading_number("session", *channel.type, event);
+  const auto sequence = leading_number("sequence", *channel.type, event);
+  if (!sequence) return;
+  channel.missing =
+      channel.missing.value_or(0) +
+      (session ? channel.sequence.note(*session, *sequence) : channel.sequence.note(*sequence));
 }
 
 void count(FaultyEvents& events, std::int64_t offset) {
@@ -64,9 +73,8 @@ void add(ChannelSurvey& channel, const LogEvent& event, std::int64_t offset) {
   const RejectReason reason = check(channel.type, type, event);
   if (reason != RejectReason::kNone) {
     count(channel.faulty[reason], offset);
-  } else if (const auto sequence = sequence_of(*type, event)) {
-    if (!channel.sequence) channel.sequence.emplace();
-    channel.sequence->note(*sequence);
+  } else {
+    note_sequence(channel, event);
   }
 }
 

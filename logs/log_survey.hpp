@@ -27,10 +27,11 @@ struct ChannelSurvey {
   /// the channel carries.
   const messaging::MessageSchema* type = nullptr;
   std::size_t events = 0;
-  std::int64_t bytes = 0;                // of the messages
-  std::int64_t first_utime = 0;          // log's time [us]
-  std::int64_t last_utime = 0;           // log's time [us]
-  std::optional<messaging::SequenceGaps> sequence;  // where the messages have a sequence number
+  std::int64_t bytes = 0;        // of the messages
+  std::int64_t first_utime = 0;  // log's time [us]
+  std::int64_t last_utime = 0;   // log's time [us]
+  messaging::SequenceGaps sequence;
+  std::optional<std::int64_t> missing;  // by sequence numbers, where messages have them
   /// Events that are no message of the channel's type, where it has one.
   std::map<messaging::RejectReason, FaultyEvents> faulty;
 

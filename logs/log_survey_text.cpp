@@ -55,7 +55,7 @@ Row row_of(const std::string& name, const ChannelSurvey& channel) {
           size_text(static_cast<double>(channel.bytes) / static_cast<double>(channel.events)),
           size_text(channel.bytes),
           has_rate ? size_text(channel.bandwidth()) + "/s" : "-",
-          channel.sequence ? fmt::format("{}", channel.sequence->missing()) : "-"};
+          channel.missing ? fmt::format("{}", *channel.missing) : "-"};
 }
 
 /// Columns as wide as need be; names to the left, numbers to the right.
@@ -103,11 +103,10 @@ std::string damages_text(const LogSurvey& survey) {
 std::string remarks_text(const LogSurvey& survey) {
   std::string text;
   for (const auto& [name, channel] : survey.channels) {
-    if (!channel.sequence || channel.sequence->missing() == 0) continue;
-    text +=
-        fmt::format("remark: {} missing on {} by sequence number\n",
-                    times_text(static_cast<std::size_t>(channel.sequence->missing()), "message"),
-                    printable(name));
+    if (channel.missing.value_or(0) == 0) continue;
+    text += fmt::format("remark: {} missing on {} by sequence number\n",
+                        times_text(static_cast<std::size_t>(*channel.missing), "message"),
+                        printable(name));
   }
   if (survey.times_back.count > 0) {
     text += fmt::format(

@@ -38,15 +38,18 @@ KinectVideo video_of(const image_msg_t& image) {
   }
 }
 
-}  // namespace
-
-FrameResult to_frame(const images_t& message, const FrameCameras& cameras, ColorUse color) {
+FrameParts parts_of(std::int64_t utime, const char* sensor, const FrameCameras& cameras) {
   FrameParts parts;
-  parts.header.utime = message.utime;
-  parts.header.sensor = "openni";
+  parts.header.utime = utime;
+  parts.header.sensor = sensor;
   parts.header.depth_camera = cameras.depth;
   parts.header.color_camera = cameras.color;
+  return parts;
+}
 
+/// Nothing where a format is not understood.
+std::optional<FrameParts> parts_of(const images_t& message, const FrameCameras& cameras) {
+  FrameParts parts = parts_of(message.utime, "openni", cameras);
   bool has_depth = false;
   for (std::size_t i = 0; i < message.images.size(); ++i) {
     const image_t& image = message.images[i];
@@ -56,26 +59,15 @@ FrameResult to_frame(const images_t& message, const FrameCameras& cameras, Color
       has_depth = true;
     } else if (type == images_t::LEFT) {
       const bool jpeg = image.pixelformat == image_t::PIXEL_FORMAT_MJPEG;
-      if (!jpeg && image.pixelformat != image_t::PIXEL_FORMAT_RGB) {
-        return {std::nullopt, FrameFault::kBadFormat};
-      }
+      if (!jpeg && image.pixelformat != image_t::PIXEL_FORMAT_RGB) return std::nullopt;
       parts.color = EncodedImage{image.data, image.width, image.height, image.row_stride, jpeg};
     }
   }
-  if (!has_depth) return {std::nullopt, FrameFault::kBadFormat};
-  return assemble(std::move(parts), color);
+  return has_depth ? std::optional(std::move(parts)) : std::nullopt;
 }
 
-FrameResult to_frame(const kinect::frame_msg_t& message, const FrameCameras& cameras,
-                     ColorUse color) {
-  FrameParts parts;
-  // The depth image has the time of the exposure; drivers that leave it out have only that of
-  // sending.
-  parts.header.utime = message.depth.timestamp != 0 ? message.depth.timestamp : message.timestamp;
-  parts.header.sensor = "kinect";
-  parts.header.depth_camera = cameras.depth;
-  parts.header.color_camera = cameras.color;
-
+std::optional<FrameParts> parts_of(const kinect::frame_msg_t& message,
+                                   const FrameCameras& cameras) {
   const depth_msg_t& depth = message.depth;
   const bool millimetres = depth.depth_data_format == depth_msg_t::DEPTH_MM ||
                            depth.depth_data_format == depth_msg_t::DEPTH_REGISTERED;
@@ -83,15 +75,57 @@ FrameResult to_frame(const kinect::frame_msg_t& message, const FrameCameras& cam
   const KinectVideo video = video_of(message.image);
   if (!millimetres || (!zipped && depth.compression != depth_msg_t::COMPRESSION_NONE) ||
       video == KinectVideo::kUnknown) {
-    return {std::nullopt, FrameFault::kBadFormat};
+    return std::nullopt;
   }
+  // The depth image has the time of the exposure; drivers that leave it out have only that of
+  // sending.
+  FrameParts parts =
+      parts_of(depth.timestamp != 0 ? depth.timestamp : message.timestamp, "kinect", cameras);
   parts.depth = {depth.depth_data, depth.width, depth.height, 0, zipped};
   if (video != KinectVideo::kNoColor) {
     const image_msg_t& image = message.image;
     parts.color =
         EncodedImage{image.image_data, image.width, image.height, 0, video == KinectVideo::kJpeg};
   }
-  return assemble(std::move(parts), color);
+  return parts;
+}
+
+template <class Message>
+FrameResult frame_of(const Message& message, const FrameCameras& cameras, ColorUse color) {
+  std::optional<FrameParts> parts = parts_of(message, cameras);
+  if (!parts) return {std::nullopt, FrameFault::kBadFormat};
+  return assemble(*std::move(parts), color);
+}
+
+template <class Message>
+FrameMessageResult own_message_of(const Message& message, const FrameCameras& cameras) {
+  const std::optional<FrameParts> parts = parts_of(message, cameras);
+  if (!parts) return {std::nullopt, FrameFault::kBadFormat};
+  const FrameResult result = assemble(*parts, ColorUse::kDecode);
+  if (!result.frame) return {std::nullopt, result.fault};
+  const bool has_jpeg = parts->color && parts->color->compressed;
+  return {
+      to_message(*result.frame, has_jpeg ? parts->color->data : std::span<const std::uint8_t>()),
+      FrameFault::kNone};
+}
+
+}  // namespace
+
+FrameResult to_frame(const images_t& message, const FrameCameras& cameras, ColorUse color) {
+  return frame_of(message, cameras, color);
+}
+
+FrameResult to_frame(const kinect::frame_msg_t& message, const FrameCameras& cameras,
+                     ColorUse color) {
+  return frame_of(message, cameras, color);
+}
+
+FrameMessageResult to_own_message(const images_t& message, const FrameCameras& cameras) {
+  return own_message_of(message, cameras);
+}
+
+FrameMessageResult to_own_message(const kinect::frame_msg_t& message, const FrameCameras& cameras) {
+  return own_message_of(message, cameras);
 }
 
 }  // namespace geomap::messaging

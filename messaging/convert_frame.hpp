@@ -48,4 +48,15 @@ FrameResult to_frame(const bot_core::images_t& message, const FrameCameras& came
 FrameResult to_frame(const kinect::frame_msg_t& message, const FrameCameras& cameras,
                      ColorUse color = ColorUse::kDecode);
 
+/// @brief A message of our own, or the reason why there is none.
+struct FrameMessageResult {
+  std::optional<geomap::rgbd_frame_t> message;
+  FrameFault fault = FrameFault::kNone;
+};
+
+/// @brief The message of our own that says the same. Depth is deflated anew, JPEG colour travels
+/// unchanged, plain colour is encoded; all of it is decoded once, to know that it can be.
+FrameMessageResult to_own_message(const bot_core::images_t& message, const FrameCameras& cameras);
+FrameMessageResult to_own_message(const kinect::frame_msg_t& message, const FrameCameras& cameras);
+
 }  // namespace geomap::messaging

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "messaging/big_endian.hpp"
 #include "messaging/embedded_text.hpp"
 #include "messaging/schema_parser.hpp"
 
@@ -83,6 +84,11 @@ class Linker {
 };
 
 }  // namespace
+
+std::optional<std::int64_t> fingerprint_of(std::span<const std::uint8_t> message) {
+  if (message.size() < kFingerprintSize) return std::nullopt;
+  return static_cast<std::int64_t>(read_unsigned(message.data(), kFingerprintSize));
+}
 
 std::size_t encoded_size(FieldType type) {
   switch (type) {

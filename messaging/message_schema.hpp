@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,12 @@ struct MessageSchema {
 
 /// @brief Most fields a struct may have.
 inline constexpr std::size_t kMaxFields = 32;
+
+/// @brief Every encoded message begins with the fingerprint of its type [byte].
+inline constexpr std::size_t kFingerprintSize = 8;
+
+/// @brief What an encoded message begins with; nothing when it is too short.
+std::optional<std::int64_t> fingerprint_of(std::span<const std::uint8_t> message);
 
 /// @brief Encoded size of one value [byte]; of a string the smallest one, 0 for a struct.
 std::size_t encoded_size(FieldType type);

@@ -16,7 +16,6 @@
 namespace geomap::messaging {
 namespace {
 
-constexpr std::size_t kFingerprintSize = 8;
 constexpr std::size_t kMebibyte = std::size_t{1} << 20;
 
 /// How far a quaternion of somebody else's single-precision arithmetic may be off.
@@ -182,8 +181,9 @@ RejectReason check_message(const void* data, std::size_t size, std::int64_t fing
   if (schema == nullptr) throw std::logic_error("safe_decode: not a type of lcmtypes/");
 
   const auto* bytes = static_cast<const std::uint8_t*>(data);
-  if (size < kFingerprintSize) return RejectReason::kTooShort;
-  if (read_signed(bytes, kFingerprintSize) != fingerprint) return RejectReason::kWrongType;
+  const std::optional<std::int64_t> claimed = fingerprint_of({bytes, size});
+  if (!claimed) return RejectReason::kTooShort;
+  if (*claimed != fingerprint) return RejectReason::kWrongType;
   const std::size_t largest = largest_size(*schema);
   if (size > largest) return RejectReason::kTooLarge;
 

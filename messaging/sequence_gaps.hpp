@@ -14,7 +14,6 @@ class SequenceGaps {
     const bool is_gap = last_ >= 0 && sequence > last_ && sequence - last_ < kRestart;
     const std::int64_t missing = is_gap ? sequence - last_ - 1 : 0;
     last_ = sequence;
-    missing_ += missing;
     return missing;
   }
   /// @brief The same for numbers that begin anew, from 0, with each session of the sender.
@@ -24,13 +23,9 @@ class SequenceGaps {
     return note(sequence);
   }
 
-  /// @brief All that were missing.
-  std::int64_t missing() const { return missing_; }
-
  private:
   std::int64_t last_ = -1;  // negative: none yet
   std::int64_t session_ = -1;
-  std::int64_t missing_ = 0;
 };
 
 }  // namespace geomap::messaging

@@ -35,7 +35,7 @@ void SensorMessages::handle(const std::string& channel, Bytes data) {
   if (channel == channels::kRgbdFrame) {
     auto frame = decode<geomap::rgbd_frame_t>(channel, data);
     if (frame && has_sound_time(channel, *frame)) {
-      sequence_.note(frame->sequence);
+      missing_frames_ += sequence_.note(frame->sequence);
       tracking_.add_frame(std::move(*frame));
     }
   } else if (channel == channels::kOpenniFrame) {

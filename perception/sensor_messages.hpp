@@ -30,7 +30,7 @@ class SensorMessages {
   using Refused = std::map<std::string, std::map<std::string, std::int64_t>>;
   const Refused& refused() const { return refused_; }
   /// @brief Frames missing by their sequence numbers.
-  std::int64_t missing_frames() const { return sequence_.missing(); }
+  std::int64_t missing_frames() const { return missing_frames_; }
 
  private:
   template <class Message>
@@ -45,6 +45,7 @@ class SensorMessages {
   messaging::FrameCameras cameras_;
   Refused refused_;
   messaging::SequenceGaps sequence_;
+  std::int64_t missing_frames_ = 0;
 };
 
 }  // namespace geomap::perception

@@ -149,6 +149,28 @@ TEST(KinectFrame, InFormatsThatAreNotMillimetresIsRefused) {
   EXPECT_EQ(to_frame(message, kCameras).fault, FrameFault::kBadFormat);
 }
 
+TEST(OwnMessage, SaysTheSameAndKeepsTheJpegBytes) {
+  const auto jpeg = encode_jpeg(color_image());
+  for (const bool compressed : {false, true}) {
+    const FrameMessageResult openni = to_own_message(openni_frame(compressed), kCameras);
+    const FrameMessageResult kinect = to_own_message(kinect_frame(compressed), kCameras);
+    expect_the_frame(to_frame(openni.message.value()), 123456);
+    expect_the_frame(to_frame(kinect.message.value()), 654321);
+    if (!compressed) continue;
+    EXPECT_EQ(openni.message->color.data, jpeg);
+    EXPECT_EQ(kinect.message->color.data, jpeg);
+  }
+}
+
+TEST(OwnMessage, IsNotMadeOfWhatCannotBeDecoded) {
+  bot_core::images_t message = openni_frame(true);
+  message.images[0].data.resize(20);
+  EXPECT_EQ(to_own_message(message, kCameras).fault, FrameFault::kBadJpeg);
+  message = openni_frame(true);
+  message.images[1].data.resize(20);
+  EXPECT_EQ(to_own_message(message, kCameras).fault, FrameFault::kBadDepth);
+}
+
 TEST(KinectFrame, WithNegativeSizesIsRefused) {
   kinect::frame_msg_t message = kinect_frame(false);
   message.depth.width = -6;
