@@ -4,19 +4,23 @@
 namespace geomap::messaging::channels {
 
 // Input: cameras and robot.
-inline constexpr const char* kRgbdFrame = "RGBD_FRAME";         // geomap.rgbd_frame_t
-inline constexpr const char* kOpenniFrame = "OPENNI_FRAME";     // bot_core.images_t
-inline constexpr const char* kKinectFrame = "KINECT_FRAME";     // kinect.frame_msg_t
-inline constexpr const char* kPose = "POSE";                    // bot_core.pose_t
-inline constexpr const char* kCameraToBody = "CAMERA_TO_BODY";  // bot_core.rigid_transform_t
-inline constexpr const char* kTruthPose = "TRUTH_POSE";         // bot_core.rigid_transform_t
+inline constexpr const char* kRgbdFrame = "RGBD_FRAME";      // geomap.rgbd_frame_t
+inline constexpr const char* kOpenniFrame = "OPENNI_FRAME";  // bot_core.images_t
+inline constexpr const char* kKinectFrame = "KINECT_FRAME";  // kinect.frame_msg_t
+inline constexpr const char* kPose = "POSE";  // bot_core.pose_t: T_odom_body or T_world_body
+inline constexpr const char* kCameraToBody =
+    "CAMERA_TO_BODY";  // bot_core.rigid_transform_t: T_body_camera
+inline constexpr const char* kTruthPose =
+    "TRUTH_POSE";  // bot_core.rigid_transform_t: T_world_camera
 
 // Registration.
 inline constexpr const char* kKeyframe = "KEYFRAME";               // geomap.keyframe_t
 inline constexpr const char* kKeyframeUpdate = "KEYFRAME_UPDATE";  // geomap.keyframe_update_t
-inline constexpr const char* kCameraPose = "CAMERA_POSE";          // bot_core.rigid_transform_t
-inline constexpr const char* kOdomToWorld = "ODOM_TO_WORLD";       // bot_core.rigid_transform_t
-inline constexpr const char* kPointMap = "POINT_MAP";              // geomap.point_map_update_t
+inline constexpr const char* kCameraPose =
+    "CAMERA_POSE";  // bot_core.rigid_transform_t: T_world_camera
+inline constexpr const char* kOdomToWorld =
+    "ODOM_TO_WORLD";                                   // bot_core.rigid_transform_t: T_world_odom
+inline constexpr const char* kPointMap = "POINT_MAP";  // geomap.point_map_update_t
 
 // Plane extraction.
 inline constexpr const char* kPlanes = "PLANES";  // geomap.plane_set_t
