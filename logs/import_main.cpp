@@ -50,6 +50,7 @@ std::unique_ptr<drivers::FrameSource> open_source(const Options& options) {
   if (options.from < 0 || options.to < -1) {
     throw messaging::ConfigError("--from and --to count from 0");
   }
+  if (!options.channel.empty()) throw messaging::ConfigError("--channel is for --format lcm");
   drivers::FrameRange range;
   range.from = options.from;
   if (options.to >= 0) range.to = options.to;
