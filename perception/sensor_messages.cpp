@@ -60,13 +60,12 @@ template <class Message>
 void SensorMessages::take_foreign(const std::string& channel, Bytes data) {
   const auto message = decode<Message>(channel, data);
   if (!message) return;
-  messaging::FrameResult converted = messaging::to_frame(*message, cameras_);
-  if (!converted.frame) {
-    refuse(channel, messaging::to_string(converted.fault));
+  messaging::FrameMessageResult own = messaging::to_own_message(*message, cameras_);
+  if (!own.message) {
+    refuse(channel, messaging::to_string(own.fault));
     return;
   }
-  geomap::rgbd_frame_t frame = messaging::to_message(*converted.frame);
-  if (has_sound_time(channel, frame)) tracking_.add_frame(std::move(frame));
+  if (has_sound_time(channel, *own.message)) tracking_.add_frame(std::move(*own.message));
 }
 
 }  // namespace geomap::perception

@@ -44,7 +44,7 @@ def enter_namespace(programs):
 
 
 def skip(reason):
-    print("SKIPPED:", reason)
+    print(f"{pathlib.Path(sys.argv[0]).stem}: Skipped\n{reason}")
     sys.exit(0)
 
 
