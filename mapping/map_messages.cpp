@@ -9,9 +9,6 @@
 namespace geomap::mapping {
 namespace {
 
-geomap::observation_id_t to_message(const ObservationId& id) { return {id.keyframe, id.plane}; }
-ObservationId from_message(const geomap::observation_id_t& id) { return {id.keyframe, id.plane}; }
-
 // Overload set for std::visit.
 struct EventWriter {
   geomap::map_event_t& message;
@@ -40,6 +37,9 @@ struct EventWriter {
 };
 
 }  // namespace
+
+geomap::observation_id_t to_message(const ObservationId& id) { return {id.keyframe, id.plane}; }
+ObservationId from_message(const geomap::observation_id_t& id) { return {id.keyframe, id.plane}; }
 
 geomap::map_event_t to_message(const MapEvent& event) {
   geomap::map_event_t message{};

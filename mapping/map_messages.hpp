@@ -5,10 +5,14 @@
 
 #include "geomap/feature_state_t.hpp"
 #include "geomap/map_event_t.hpp"
+#include "geomap/observation_id_t.hpp"
 #include "mapping/map_event.hpp"
 #include "mapping/map_feature.hpp"
 
 namespace geomap::mapping {
+
+geomap::observation_id_t to_message(const ObservationId& id);
+ObservationId from_message(const geomap::observation_id_t& id);
 
 /// @brief An event, exact in every number.
 geomap::map_event_t to_message(const MapEvent& event);

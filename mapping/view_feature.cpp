@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/view_feature.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geomap::mapping {
+namespace {
+
+using geometry::GridPoint;
+using geometry::PlanarPolygon;
+using geometry::Polygon;
+using geometry::Ring;
+
+constexpr double kNormalUnit = 1e-6;
+constexpr double kAxisUnit = 1.0 / 30000.0;
+constexpr double kAngleUnit = 1e-6;      // [rad]
+constexpr double kAxesTolerance = 1e-3;  // far more than rounding does
+
+template <class Integer>
+Integer rounded(double value, double unit) {
+  using Limits = std::numeric_limits<Integer>;
+  return static_cast<Integer>(std::clamp(std::round(value / unit),
+                                         static_cast<double>(Limits::min()),
+                                         static_cast<double>(Limits::max())));
+}
+
+template <class Integer>
+std::array<Integer, 3> rounded(const Eigen::Vector3d& v, double unit) {
+  return {rounded<Integer>(v.x(), unit), rounded<Integer>(v.y(), unit),
+          rounded<Integer>(v.z(), unit)};
+}
+
+template <class Integer>
+Eigen::Vector3d vector(const std::array<Integer, 3>& v, double unit) {
+  return unit * Eigen::Vector3d(v[0], v[1], v[2]);
+}
+
+// Calls `use` with both ends of every edge of every ring [m].
+template <class Use>
+void for_each_edge(const Polygon& polygon, const Use& use) {
+  const auto visit = [&use](const Ring& ring) {
+    Eigen::Vector2d p = geometry::to_metres(ring.back());
+    for (const GridPoint vertex : ring) {
+      const Eigen::Vector2d q = geometry::to_metres(vertex);
+      use(p, q);
+      p = q;
+    }
+  };
+  for (const geometry::PolygonPart& part : polygon.parts) {
+    visit(part.outer);
+    std::for_each(part.holes.begin(), part.holes.end(), visit);
+  }
+}
+
+double squared_distance_to_border(const Polygon& polygon, const Eigen::Vector2d& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for_each_edge(polygon, [&](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+    const Eigen::Vector2d along = q - p;
+    const double t = std::clamp((point - p).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (p + t * along - point).squaredNorm());
+  });
+  return nearest;
+}
+
+// Is a vertex of `moved` farther than `distance` from the plane or the border of `surface`?
+bool leaves(const PlanarPolygon& moved, const PlanarPolygon& surface, double distance) {
+  const Eigen::Isometry3d T_plane_world = surface.frame.T_plane_parent();
+  bool is_far = false;
+  for_each_edge(moved.polygon, [&](const Eigen::Vector2d&, const Eigen::Vector2d& vertex) {
+    if (is_far) return;
+    const Eigen::Vector3d p = T_plane_world * moved.lift(vertex);
+    is_far = std::abs(p.z()) > distance ||
+             squared_distance_to_border(surface.polygon, p.head<2>()) > distance * distance;
+  });
+  return is_far;
+}
+
+}  // namespace
+
+ViewFeature quantised(const MapFeature& feature) {
+  const PlanarPolygon& surface = feature.surface;
+  const Eigen::Vector3d& normal = surface.plane.normal;
+  const Eigen::Vector3d along = surface.frame.x_axis - surface.frame.x_axis.dot(normal) * normal;
+  ViewFeature view;
+  view.id = feature.id;
+  view.origin = rounded<std::int32_t>(surface.lift(Eigen::Vector2d::Zero()), geometry::kGridUnit);
+  view.normal = rounded<std::int32_t>(normal, kNormalUnit);
+  view.x_axis = rounded<std::int16_t>(along.normalized(), kAxisUnit);
+  view.polygon = surface.polygon;
+  view.observations = static_cast<std::int32_t>(feature.observations.size());
+  view.last_utime = feature.last_utime();
+  view.rms = rounded<std::int32_t>(feature.rms, geometry::kGridUnit);
+  view.sigma_angle = rounded<std::int32_t>(feature.sigma_angle, kAngleUnit);
+  view.sigma_d = rounded<std::int32_t>(feature.sigma_d, geometry::kGridUnit);
+  std::transform(feature.color.begin(), feature.color.end(), view.color.begin(),
+                 [](double value) { return rounded<std::uint8_t>(value, 1.0); });
+  view.label = feature.label;
+  return view;
+}
+
+PlanarPolygon surface_of(const ViewFeature& feature) {
+  PlanarPolygon surface;
+  surface.frame.origin = vector(feature.origin, geometry::kGridUnit);
+  surface.frame.normal = vector(feature.normal, kNormalUnit).normalized();
+  const Eigen::Vector3d x = vector(feature.x_axis, kAxisUnit);
+  surface.frame.x_axis = (x - x.dot(surface.frame.normal) * surface.frame.normal).normalized();
+  surface.plane = surface.frame.plane();
+  surface.polygon = feature.polygon;
+  return surface;
+}
+
+bool is_sound(const ViewFeature& feature) {
+  const Eigen::Vector3d normal = vector(feature.normal, kNormalUnit);
+  const Eigen::Vector3d x = vector(feature.x_axis, kAxisUnit);
+  return std::abs(normal.norm() - 1.0) < kAxesTolerance &&
+         std::abs(x.norm() - 1.0) < kAxesTolerance && std::abs(x.dot(normal)) < kAxesTolerance &&
+         feature.observations > 0 && feature.rms >= 0 && feature.sigma_angle >= 0 &&
+         feature.sigma_d >= 0;
+}
+
+bool looks_different(const ViewFeature& sent, const ViewFeature& now,
+                     const ViewTolerance& tolerance) {
+  if (sent.label != now.label || sent.locked != now.locked) return true;
+  const double area = geometry::area(sent.polygon);
+  if (std::abs(geometry::area(now.polygon) - area) > tolerance.area_share * area) return true;
+  const PlanarPolygon before = surface_of(sent);
+  const PlanarPolygon after = surface_of(now);
+  return leaves(after, before, tolerance.distance) || leaves(before, after, tolerance.distance);
+}
+
+}  // namespace geomap::mapping
