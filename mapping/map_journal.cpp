@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
-#include "geomap/map_state_t.hpp"
 #include "mapping/map_hash.hpp"
 #include "mapping/map_messages.hpp"
 #include "messaging/channels.hpp"
@@ -38,36 +40,21 @@ std::string to_yaml(const MergeConfig& merge, const HistoryConfig& history) {
   return to_yaml("merge", merge) + to_yaml("history", history);
 }
 
-geomap::map_state_t state_of(const SavedMap& saved) {
-  geomap::map_state_t state{};
-  state.revision = saved.revision;
-  state.config = to_yaml(saved.merge, saved.history);
-  state.hash = map_hash(saved.features);
-  for (const auto& [id, feature] : saved.features) {
-    state.features.push_back(to_message(*feature));
-    state.utime = std::max(state.utime, feature->last_utime());
-  }
-  state.n_features = static_cast<std::int32_t>(state.features.size());
-  for (const auto& [id, feature] : saved.base_features) {
-    state.base_features.push_back(to_message(*feature));
-  }
-  state.n_base_features = static_cast<std::int32_t>(state.base_features.size());
-  state.base_keyframe = saved.base_keyframe.value_or(kNoKeyframe);
-  return state;
-}
-
 // Reads one map file; every failure names it.
 class MapFile {
  public:
   explicit MapFile(const std::filesystem::path& path) : path_(path) {}
 
-  SavedMap load() {
+  LoadedJournal load() {
     messaging::LogReader reader(path_.string());
-    while (const auto event = reader.next()) take(*event);
-    if (!reader.damages().empty()) fail("is damaged");
+    while (const auto event = reader.next()) {
+      take(*event);
+      if (state_ && journal_.begin == 0) journal_.begin = reader.position();
+    }
     if (!state_) fail("holds no map (no MAP_STATE)");
+    take_damages(reader);
     take_state();
-    return std::move(saved_);
+    return std::move(journal_);
   }
 
  private:
@@ -89,9 +76,22 @@ class MapFile {
     if (event.channel == channels::kMapEvent) {
       auto map_event = from_message(decode<geomap::map_event_t>(event));
       if (!map_event) fail("holds an event that is no map event");
-      saved_.events.push_back(std::move(*map_event));
+      journal_.later.push_back(std::move(*map_event));
     } else if (event.channel == channels::kMapState) {
       state_ = decode<geomap::map_state_t>(event);
+      std::move(journal_.later.begin(), journal_.later.end(),
+                std::back_inserter(journal_.saved.events));
+      journal_.later.clear();
+    }
+  }
+
+  void take_damages(const messaging::LogReader& reader) {
+    journal_.end = reader.size();
+    for (const messaging::LogDamage& damage : reader.damages()) {
+      if (damage.offset < journal_.begin) fail("is damaged");
+      const bool is_tail = damage.offset + damage.size == reader.size();
+      (is_tail ? journal_.torn : journal_.damaged) += damage.size;
+      if (is_tail) journal_.end = damage.offset;
     }
   }
 
@@ -107,27 +107,46 @@ class MapFile {
   }
 
   void take_state() {
+    SavedMap& saved = journal_.saved;
     try {
       const auto config = messaging::Config::from_text(to_yaml(MergeConfig{}, HistoryConfig{}),
                                                        state_->config, path_.string());
-      saved_.merge = config.read<MergeConfig>("merge");
-      saved_.history = config.read<HistoryConfig>("history");
+      saved.merge = config.read<MergeConfig>("merge");
+      saved.history = config.read<HistoryConfig>("history");
     } catch (const messaging::ConfigError& error) {
       fail(std::string("was made with settings of another version: ") + error.what());
     }
-    saved_.revision = state_->revision;
-    saved_.features = features(state_->features);
-    saved_.base_features = features(state_->base_features);
-    if (state_->base_keyframe != kNoKeyframe) saved_.base_keyframe = state_->base_keyframe;
-    if (map_hash(saved_.features) != state_->hash) fail("is damaged: its hash does not match");
+    saved.revision = state_->revision;
+    saved.features = features(state_->features);
+    saved.base_features = features(state_->base_features);
+    if (state_->base_keyframe != kNoKeyframe) saved.base_keyframe = state_->base_keyframe;
+    if (map_hash(saved.features) != state_->hash) fail("is damaged: its hash does not match");
   }
 
   std::filesystem::path path_;
   std::optional<geomap::map_state_t> state_;
-  SavedMap saved_;
+  LoadedJournal journal_;
 };
 
 }  // namespace
+
+geomap::map_state_t state_of(const SavedMap& saved) {
+  geomap::map_state_t state{};
+  state.revision = saved.revision;
+  state.config = to_yaml(saved.merge, saved.history);
+  state.hash = map_hash(saved.features);
+  for (const auto& [id, feature] : saved.features) {
+    state.features.push_back(to_message(*feature));
+    state.utime = std::max(state.utime, feature->last_utime());
+  }
+  state.n_features = static_cast<std::int32_t>(state.features.size());
+  for (const auto& [id, feature] : saved.base_features) {
+    state.base_features.push_back(to_message(*feature));
+  }
+  state.n_base_features = static_cast<std::int32_t>(state.base_features.size());
+  state.base_keyframe = saved.base_keyframe.value_or(kNoKeyframe);
+  return state;
+}
 
 void save_map(const std::filesystem::path& path, const GeometricMap& map) {
   const SavedMap saved = map.saved();
@@ -139,11 +158,39 @@ void save_map(const std::filesystem::path& path, const GeometricMap& map) {
   }
   const geomap::map_state_t state = state_of(saved);
   writer.write(channels::kMapState, state.utime, state);
+  writer.sync();
   writer.close();
   file.keep();
 }
 
-SavedMap load_map(const std::filesystem::path& path) { return MapFile(path).load(); }
+SavedMap load_map(const std::filesystem::path& path) {
+  LoadedJournal journal = load_journal(path);
+  if (journal.torn + journal.damaged > 0) {
+    throw std::runtime_error(path.string() + " is damaged");
+  }
+  if (journal.later.empty()) return std::move(journal.saved);
+  GeometricMap map(journal.saved);
+  for (const MapEvent& event : journal.later) map.apply(event);
+  return map.saved();
+}
+
+LoadedJournal load_journal(const std::filesystem::path& path) { return MapFile(path).load(); }
+
+bool is_same_merging(const MergeConfig& a, const MergeConfig& b) {
+  return to_yaml("merge", a) == to_yaml("merge", b);
+}
+
+GeometricMap reopen(SavedMap saved, const MergeConfig& merge, const HistoryConfig& history) {
+  const bool is_same = is_same_merging(saved.merge, merge);
+  saved.merge = merge;
+  saved.history = history;
+  if (is_same) return GeometricMap(saved);
+  const std::vector<MapEvent> events = std::exchange(saved.events, {});
+  saved.features = saved.base_features;
+  GeometricMap map(saved);
+  for (const MapEvent& event : events) map.apply(event);
+  return map;
+}
 
 MapSnapshot snapshot_of(std::int64_t revision, const FeatureSet& features) {
   MapSnapshot snapshot{revision, map_hash(features), {}};

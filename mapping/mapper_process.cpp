@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "mapping/map_hash.hpp"
+#include "mapping/map_journal.hpp"
 #include "messaging/channels.hpp"
 #include "messaging/convert_geometry.hpp"
 #include "messaging/log.hpp"
@@ -17,12 +19,24 @@ namespace geomap::mapping {
 namespace channels = messaging::channels;
 using messaging::Keep;
 
+namespace {
+
+constexpr double kRetryPeriod = 1.0;  // of storing what could not be stored [s]
+
+}  // namespace
+
 MapperConfig read_mapper_config(const messaging::Config& config) {
-  return {config.read<MergeConfig>("merge"), config.read<HistoryConfig>("history")};
+  return {config.read<MergeConfig>("merge"), config.read<HistoryConfig>("history"),
+          config.read<MapViewConfig>("mapper")};
 }
 
-MapperProcess::MapperProcess(const MapperConfig& config, messaging::LiveProcess& live)
-    : live_(live), config_(config), map_(config.merge, config.history) {
+MapperProcess::MapperProcess(const MapperConfig& config, std::unique_ptr<EventJournal> journal,
+                             messaging::LiveProcess& live)
+    : live_(live),
+      config_(config),
+      journal_(std::move(journal)),
+      map_(first_map()),
+      view_(config.view, map_.features(), live) {
   live_.on<geomap::plane_set_t>(channels::kPlanes, Keep::kEvery,
                                 [this](const geomap::plane_set_t& planes) { take_planes(planes); });
   live_.on<geomap::keyframe_update_t>(
@@ -31,6 +45,17 @@ MapperProcess::MapperProcess(const MapperConfig& config, messaging::LiveProcess&
   live_.on<geomap::map_request_t>(
       channels::kMapRequest, Keep::kEvery,
       [this](const geomap::map_request_t& request) { take_request(request); });
+  if (!journal_) return;
+  messaging::log_info(journal_->recovery());
+  live_.every(kRetryPeriod, [this] {
+    journal_->retry(map_);
+    report_trouble();
+  });
+}
+
+GeometricMap MapperProcess::first_map() const {
+  if (journal_) return journal_->open(config_.merge, config_.history);
+  return {config_.merge, config_.history};
 }
 
 void MapperProcess::take_planes(const geomap::plane_set_t& message) {
@@ -49,7 +74,8 @@ void MapperProcess::take_planes(const geomap::plane_set_t& message) {
   observation->keyframe = planes->keyframe;
   observation->T_world_camera = planes->T_world_camera;
   observation->planes = std::move(planes->planes);
-  apply(channels::kPlanes, std::shared_ptr<const Observation>(std::move(observation)));
+  apply(channels::kPlanes, std::shared_ptr<const Observation>(std::move(observation)),
+        ViewCause::kObservation);
 }
 
 void MapperProcess::take_update(const geomap::keyframe_update_t& update) {
@@ -57,9 +83,11 @@ void MapperProcess::take_update(const geomap::keyframe_update_t& update) {
   for (const geomap::pose_correction_t& pose : update.corrections) {
     correction.poses.emplace_back(pose.keyframe, messaging::from_message(pose.T_world_camera));
   }
-  if (!correction.poses.empty()) apply(channels::kKeyframeUpdate, correction);
+  if (!correction.poses.empty()) {
+    apply(channels::kKeyframeUpdate, correction, ViewCause::kPoseCorrection);
+  }
   for (const std::int64_t keyframe : update.removed) {
-    apply(channels::kKeyframeUpdate, KeyframeRemoval{keyframe});
+    apply(channels::kKeyframeUpdate, KeyframeRemoval{keyframe}, ViewCause::kKeyframeRemoval);
   }
 }
 
@@ -73,8 +101,17 @@ void MapperProcess::take_request(const geomap::map_request_t& request) {
       break;
     case Request::CLEAR:
     case Request::RESET:
-      map_ = GeometricMap(config_.merge, config_.history);
+      replace_map({config_.merge, config_.history}, ViewCause::kReset);
       messaging::log_info("map cleared");
+      break;
+    case Request::SNAPSHOT:
+      if (request.name.empty() || request.name == channels::kMapSnapshot) view_.request_snapshot();
+      break;
+    case Request::SAVE:
+      save(request.name);
+      break;
+    case Request::LOAD:
+      load(request.name);
       break;
     default:
       live_.reject(channels::kMapRequest, "unknown_kind");
@@ -82,11 +119,57 @@ void MapperProcess::take_request(const geomap::map_request_t& request) {
   }
 }
 
-void MapperProcess::apply(const std::string& channel, const MapEvent& event) {
+void MapperProcess::apply(const std::string& channel, const MapEvent& event, ViewCause cause) {
   const messaging::Stopwatch merging;
   const ApplyResult applied = map_.apply(event);
   live_.health().time("merging", merging.seconds());
-  if (applied.fault != EventFault::kNone) live_.reject(channel, to_string(applied.fault));
+  if (applied.fault != EventFault::kNone) {
+    live_.reject(channel, to_string(applied.fault));
+    return;
+  }
+  if (journal_) {
+    const messaging::Stopwatch storing;
+    journal_->add(event, map_);
+    live_.health().time("journal", storing.seconds());
+    report_trouble();
+  }
+  publish(applied.change, cause);
+}
+
+void MapperProcess::replace_map(GeometricMap map, ViewCause cause) {
+  const MapChange change = difference(map_.features(), map.features());
+  map_ = std::move(map);
+  if (journal_) {
+    journal_->replace(map_);
+    report_trouble();
+  }
+  publish(change, cause);
+}
+
+void MapperProcess::save(const std::string& name) {
+  if (!journal_) throw std::runtime_error("SAVE: maps are saved only with --state DIR");
+  save_map(journal_->file_of(name), map_);
+  messaging::log_info("map saved as " + journal_->file_of(name).string());
+}
+
+void MapperProcess::load(const std::string& name) {
+  if (!journal_) throw std::runtime_error("LOAD: maps are loaded only with --state DIR");
+  const std::filesystem::path file = journal_->file_of(name);
+  replace_map(reopen(load_map(file), config_.merge, config_.history), ViewCause::kLoad);
+  messaging::log_info("map loaded from " + file.string());
+}
+
+void MapperProcess::publish(const MapChange& change, ViewCause cause) {
+  const EventHistory::Keyframes& keyframes = map_.history().keyframes();
+  view_.publish(map_.features(), change, cause,
+                keyframes.empty() ? map_.history().forgotten_through().value_or(0)
+                                  : keyframes.rbegin()->first);
+}
+
+void MapperProcess::report_trouble() {
+  const std::string& trouble = journal_->trouble();
+  live_.health().set_trouble(trouble.empty() ? geomap::health_t::GOOD : geomap::health_t::FAILING,
+                             trouble);
 }
 
 std::string MapperProcess::summary() const {

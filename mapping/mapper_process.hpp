@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "geomap/keyframe_update_t.hpp"
 #include "geomap/map_request_t.hpp"
 #include "geomap/plane_set_t.hpp"
+#include "mapping/event_journal.hpp"
 #include "mapping/geometric_map.hpp"
+#include "mapping/map_view_process.hpp"
 #include "messaging/config.hpp"
 #include "messaging/live_process.hpp"
 #include "messaging/sequence_gaps.hpp"
@@ -16,29 +19,41 @@ namespace geomap::mapping {
 struct MapperConfig {
   MergeConfig merge;
   HistoryConfig history;
+  MapViewConfig view;
 };
 
 /// @throws messaging::ConfigError.
 MapperConfig read_mapper_config(const messaging::Config& config);
 
-/// @brief geomap-mapper: PLANES in, the geometric map out. Key frames that registration moves or
-/// drops are moved and dropped here too.
+/// @brief geomap-mapper: PLANES in, the geometric map and the operator's view of it out. Key frames
+/// that registration moves or drops are moved and dropped here too. With a journal the map outlives
+/// the process.
 class MapperProcess {
  public:
-  MapperProcess(const MapperConfig& config, messaging::LiveProcess& live);
+  /// @param journal not opened yet; null: nothing is stored. @throws as EventJournal::open.
+  MapperProcess(const MapperConfig& config, std::unique_ptr<EventJournal> journal,
+                messaging::LiveProcess& live);
 
   const GeometricMap& map() const { return map_; }
   std::string summary() const;
 
  private:
+  GeometricMap first_map() const;
   void take_planes(const geomap::plane_set_t& message);
   void take_update(const geomap::keyframe_update_t& update);
   void take_request(const geomap::map_request_t& request);
-  void apply(const std::string& channel, const MapEvent& event);
+  void apply(const std::string& channel, const MapEvent& event, ViewCause cause);
+  void replace_map(GeometricMap map, ViewCause cause);
+  void save(const std::string& name);
+  void load(const std::string& name);
+  void publish(const MapChange& change, ViewCause cause);
+  void report_trouble();
 
   messaging::LiveProcess& live_;
   MapperConfig config_;
+  std::unique_ptr<EventJournal> journal_;
   GeometricMap map_;
+  MapViewPublisher view_;
   messaging::SequenceGaps sequence_;
   bool is_paused_ = false;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "messaging/log_writer.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -50,6 +52,13 @@ void LogWriter::flush() {
   if (!file_) return;
   errno = 0;
   if (std::fflush(file_->getFilePtr()) != 0) fail();
+}
+
+void LogWriter::sync() {
+  flush();
+  if (!file_) return;
+  errno = 0;
+  if (fsync(fileno(file_->getFilePtr())) != 0) fail();
 }
 
 void LogWriter::close() {

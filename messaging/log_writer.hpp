@@ -42,6 +42,9 @@ class LogWriter {
   /// @brief Hands everything to the operating system, so that a crash of the program loses nothing.
   /// @throws std::runtime_error as above.
   void flush();
+  /// @brief Returns when everything is on disk, so that a loss of power loses nothing.
+  /// @throws std::runtime_error as above.
+  void sync();
   /// @brief Flushes and closes. @throws std::runtime_error as above.
   void close();
 

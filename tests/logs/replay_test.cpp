@@ -12,6 +12,7 @@
 #include "logs/trajectory_file.hpp"
 #include "mapping/map_hash.hpp"
 #include "mapping/map_journal.hpp"
+#include "mapping/map_view_process.hpp"
 #include "messaging/channels.hpp"
 #include "messaging/config_checks.hpp"
 #include "messaging/convert_frame.hpp"
@@ -324,6 +325,7 @@ TEST(PipelineConfig, TheDefaultFileHoldsTheDefaultsOfTheClassesAndNothingElse) {
   checks.expect_defaults<perception::RansacExtractorConfig>("ransac");
   checks.expect_defaults<mapping::MergeConfig>("merge");
   checks.expect_defaults<mapping::HistoryConfig>("history");
+  checks.expect_defaults<mapping::MapViewConfig>("mapper");
   EXPECT_THAT(checks.differences(), ::testing::IsEmpty());
   EXPECT_THAT(checks.unread_keys(), ::testing::IsEmpty());
 }

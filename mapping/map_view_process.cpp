@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping/map_view_process.hpp"
+
+#include "mapping/map_view_messages.hpp"
+#include "messaging/channels.hpp"
+
+namespace geomap::mapping {
+namespace {
+
+namespace channels = messaging::channels;
+
+constexpr double kLookPeriod = 0.25;  // whether a snapshot is due [s]
+
+}  // namespace
+
+std::vector<std::string> MapViewConfig::validate() const {
+  std::vector<std::string> messages;
+  if (!(snapshot_period >= 0.5 && snapshot_period <= 3600.0)) {
+    messages.emplace_back("snapshot_period must be between 0.5 and 3600 s");
+  }
+  if (!(tolerance.distance > 0.0)) messages.emplace_back("view_distance must be positive");
+  if (!(tolerance.area_share > 0.0)) messages.emplace_back("view_area_share must be positive");
+  return messages;
+}
+
+MapViewPublisher::MapViewPublisher(const MapViewConfig& config, const FeatureSet& features,
+                                   messaging::LiveProcess& live)
+    : live_(live), config_(config) {
+  view_.epoch = live_.health().started();
+  if (!features.empty()) {
+    apply(delta_after(view_, features, difference({}, features), config_.tolerance), view_);
+  }
+  live_.every(kLookPeriod, [this] { publish_due_snapshot(); });
+}
+
+void MapViewPublisher::publish(const FeatureSet& features, const MapChange& change, ViewCause cause,
+                               std::int64_t utime) {
+  ViewDelta delta = delta_after(view_, features, change, config_.tolerance);
+  delta.utime = utime;
+  delta.cause = cause;
+  for (const geomap::map_delta_t& part : to_messages(delta)) {
+    live_.publish(channels::kMapDelta, part);
+  }
+  apply(delta, view_);
+}
+
+void MapViewPublisher::publish_due_snapshot() {
+  const Clock::time_point now = Clock::now();
+  const std::chrono::duration<double> age = now - published_;
+  if (!is_requested_ && age.count() < config_.snapshot_period) return;
+  is_requested_ = false;
+  published_ = now;
+  for (const geomap::map_t& part : to_messages(view_)) live_.publish(channels::kMapSnapshot, part);
+}
+
+}  // namespace geomap::mapping

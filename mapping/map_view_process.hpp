@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mapping/map_view.hpp"
+#include "messaging/live_process.hpp"
+
+namespace geomap::mapping {
+
+/// @brief What the operator is sent.
+struct MapViewConfig {
+  double snapshot_period = 5.0;  // between two MAP_SNAPSHOT [s]
+  ViewTolerance tolerance;
+
+  std::vector<std::string> validate() const;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& visitor) {
+    visitor("snapshot_period", self.snapshot_period);
+    visitor("view_distance", self.tolerance.distance);
+    visitor("view_area_share", self.tolerance.area_share);
+  }
+};
+
+/// @brief Publishes the map as the operator sees it: MAP_DELTA with every change, MAP_SNAPSHOT
+/// every few seconds and on request.
+class MapViewPublisher {
+ public:
+  /// @param features that are there already: whoever follows needs a snapshot first.
+  MapViewPublisher(const MapViewConfig& config, const FeatureSet& features,
+                   messaging::LiveProcess& live);
+
+  /// @param utime id of the newest key frame in the map [us].
+  void publish(const FeatureSet& features, const MapChange& change, ViewCause cause,
+               std::int64_t utime);
+  /// @brief The next one comes within a quarter of a second, however many ask.
+  void request_snapshot() { is_requested_ = true; }
+
+  const MapView& view() const { return view_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void publish_due_snapshot();
+
+  messaging::LiveProcess& live_;
+  MapViewConfig config_;
+  MapView view_;
+  bool is_requested_ = true;
+  Clock::time_point published_;
+};
+
+}  // namespace geomap::mapping
