@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "mapping/map_hash.hpp"
 #include "mapping/map_journal.hpp"
 #include "mapping/map_messages.hpp"
 #include "messaging/channels.hpp"
@@ -75,8 +76,9 @@ GeometricMap EventJournal::open(const MergeConfig& merge, const HistoryConfig& h
     recovery_ += "; folded anew, because the settings of merging differ";
     replace(map);
   }
-  recovery_ += fmt::format("; the map has {} features of {} key frames", map.features().size(),
-                           map.history().keyframes().size());
+  recovery_ += fmt::format("; the map has {} features of {} key frames, map_hash {}",
+                           map.features().size(), map.history().keyframes().size(),
+                           map_hash(map.features()));
   return map;
 }
 

@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""geomap-mapper and what it keeps: kills, a full disk, saved maps, late joiners.
+
+usage: mapper_state_test.py FOLDER_OF_PROGRAMS [unittest arguments]
+"""
+import collections
+import concurrent.futures
+import json
+import pathlib
+import random
+import re
+import shutil
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import live_system
+
+MAPPER = "geomap-mapper"
+KILLS = 100
+AT_ONCE = 10
+
+
+def read_log(path):
+    """Channel and data of every event of an LCM log."""
+    data, at = pathlib.Path(path).read_bytes(), 0
+    while at < len(data):
+        _, _, _, channel_size, size = struct.unpack_from(">IqqII", data, at)
+        at += 28 + channel_size
+        yield data[at - channel_size:at].decode(), data[at:at + size]
+        at += size
+
+
+class Listener(threading.Thread):
+    """Keeps the messages of the bus, by channel."""
+
+    def __init__(self):
+        super().__init__(daemon=True)
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
+        self.socket.bind(("239.255.76.67", 7667))
+        group = socket.inet_aton("239.255.76.67") + socket.inet_aton("127.0.0.1")
+        self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
+        self.messages = collections.defaultdict(list)
+        self.start()
+
+    def run(self):
+        while True:
+            packet = self.socket.recv(65536)
+            if packet[:4] != b"LC02":
+                continue
+            end = packet.index(b"\0", 8)
+            self.messages[packet[8:end].decode()].append(packet[end + 1:])
+
+    def wait_for(self, channel, accept=lambda data: True, after=lambda: None, timeout=10.0):
+        """The first accepted message since `after` was called."""
+        seen, deadline = len(self.messages[channel]), time.monotonic() + timeout
+        after()
+        while time.monotonic() < deadline:
+            for data in self.messages[channel][seen:]:
+                seen += 1
+                if accept(data):
+                    return data
+            time.sleep(0.005)
+        raise AssertionError(f"nothing on {channel} within {timeout} s")
+
+
+class MapperState(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        log = live_system.simulate(PROGRAMS, cls.folder)
+        derived = cls.folder / "derived.lcmlog"
+        subprocess.run([str(PROGRAMS / "geomap-replay"), str(log), "-o", str(cls.folder / "replay"),
+                        "--log-out", str(derived)], check=True, capture_output=True)
+        cls.planes = [data for channel, data in read_log(derived) if channel == "PLANES"]
+        cls.types = live_system.message_types(cls.folder / "types")
+        cls.utimes = [cls.types.plane_set_t.decode(data).utime for data in cls.planes]
+        cls.listener = Listener()
+        cls.publisher = live_system.Publisher()
+        cls.hashes = cls.hashes_by_key_frames()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    @classmethod
+    def start(cls, state, prefix="", command=()):
+        return live_system.Process(
+            [*command, str(PROGRAMS / MAPPER), "-l", live_system.UDP, "--state", str(state),
+             *(["--channel-prefix", prefix] if prefix else [])], cls.folder)
+
+    @classmethod
+    def start_and_wait(cls, state, prefix="", command=()):
+        started = time.time_ns() // 1000
+        mapper = cls.start(state, prefix, command)  # which is silent for a second
+        cls.listener.wait_for(prefix + "MAP_SNAPSHOT",
+                              lambda data: cls.types.map_t.decode(data).epoch >= started)
+        return mapper
+
+    @classmethod
+    def request(cls, kind, name=""):
+        message = cls.types.map_request_t()
+        message.kind, message.author, message.name = kind, "test", name
+        cls.publisher.send("MAP_REQUEST", message.encode())
+
+    @classmethod
+    def feed(cls, first, end):
+        """Sends key frames and waits until the last one is acknowledged."""
+        for i in range(first, end):
+            cls.listener.wait_for(
+                "MAP_DELTA", lambda data: cls.types.map_delta_t.decode(data).utime >= cls.utimes[i],
+                after=lambda: cls.publisher.send("PLANES", cls.planes[i]))
+
+    @classmethod
+    def saved_hash(cls, state, name):
+        """map_hash of a map that was saved by name."""
+        file, exported = state / f"{name}.lcmlog", cls.folder / "saved.json"
+        for _ in range(200):
+            if file.exists():
+                break
+            time.sleep(0.02)
+        subprocess.run([str(PROGRAMS / "geomap-export"), str(file), str(exported)], check=True,
+                       capture_output=True)
+        return json.loads(exported.read_text())["hash"]
+
+    @classmethod
+    def hashes_by_key_frames(cls):
+        """map_hash after each number of key frames, from a mapper that nobody kills."""
+        state = cls.folder / "reference"
+        mapper = cls.start_and_wait(state)
+        hashes = []
+        for count in range(len(cls.planes) + 1):
+            cls.feed(max(0, count - 1), count)
+            cls.request(cls.types.map_request_t.SAVE, f"after-{count}")
+            hashes.append(cls.saved_hash(state, f"after-{count}"))
+        assert mapper.stop() == 0
+        assert mapper.map_hash() == hashes[-1]
+        return hashes
+
+    def recovered(self, mapper):
+        """Number of key frames and map_hash, as the mapper says when it starts."""
+        text = pathlib.Path(mapper.err.name).read_text()
+        found = re.search(r"of (\d+) key frames, map_hash (\w+)", text)
+        return (int(found[1]), found[2]) if found else (0, self.hashes[0])
+
+    def kill_again_and_again(self, worker, kills):
+        """Feeds a mapper and kills it; what comes back must be what it had acknowledged."""
+        chance = random.Random(worker)
+        prefix, state = f"robot{worker}/", self.folder / f"killed{worker}"
+        publisher = live_system.Publisher()
+        deltas = self.listener.messages[prefix + "MAP_DELTA"]
+        acknowledged = 0
+        while True:
+            mapper = self.start_and_wait(state, prefix)
+            count, found_hash = self.recovered(mapper)
+            self.assertEqual(found_hash, self.hashes[count])
+            self.assertGreaterEqual(count, acknowledged)
+            if kills == 0:
+                break
+            if count < len(self.planes):
+                kills -= 1
+                before = len(deltas)
+                for data in self.planes[count:count + chance.randint(1, 4)]:
+                    publisher.send(prefix + "PLANES", data)
+                    time.sleep(chance.uniform(0, 0.004))
+                mapper.stop(signal.SIGKILL)
+                time.sleep(0.05)
+                newest = [self.types.map_delta_t.decode(data).utime for data in deltas[before:]]
+                acknowledged = max([count, *(self.utimes.index(utime) + 1 for utime in newest)])
+            else:
+                mapper.stop(signal.SIGKILL)
+                shutil.rmtree(state)
+                acknowledged = 0
+        mapper.stop()
+
+    def test_killed_at_any_moment_it_comes_back_with_what_it_had_acknowledged(self):
+        with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
+            workers = [pool.submit(self.kill_again_and_again, worker, KILLS // AT_ONCE)
+                       for worker in range(AT_ONCE)]
+            for worker in workers:
+                worker.result()
+
+    def test_without_room_it_goes_on_says_so_and_stores_later(self):
+        state = self.folder / "full"
+        small = ["sh", "-c", 'trap "" XFSZ; ulimit -Sf 16; exec "$@"', "--"]
+        mapper = self.start_and_wait(state, command=small)
+
+        def level_is(level):
+            return lambda data: (lambda health: health.process == MAPPER and
+                                 health.level == level)(self.types.health_t.decode(data))
+        self.feed(0, len(self.planes))
+        health = self.types.health_t.decode(
+            self.listener.wait_for("HEALTH", level_is(self.types.health_t.FAILING)))
+        self.assertIn("not stored", health.message)
+        self.assertIn(str(state), health.message)
+        subprocess.run(["prlimit", "--pid", str(mapper.process.pid), "--fsize=unlimited"], check=True)
+        self.listener.wait_for("HEALTH", level_is(self.types.health_t.GOOD))
+        mapper.stop(signal.SIGKILL)
+        again = self.start_and_wait(state)
+        self.assertEqual(self.recovered(again), (len(self.planes), self.hashes[-1]))
+        self.assertEqual(again.stop(), 0)
+
+    def test_maps_are_saved_and_loaded_by_name(self):
+        state = self.folder / "named"
+        mapper = self.start_and_wait(state)
+        self.feed(0, 3)
+        self.request(self.types.map_request_t.SAVE, "three")
+        self.assertEqual(self.saved_hash(state, "three"), self.hashes[3])
+        reset = self.types.map_delta_t.decode(self.listener.wait_for(
+            "MAP_DELTA", after=lambda: self.request(self.types.map_request_t.CLEAR)))
+        self.assertEqual(reset.cause, reset.RESET)
+        self.assertGreater(reset.n_removed, 0)
+        for name in ("../three", "/etc/passwd", "missing", ""):
+            self.request(self.types.map_request_t.LOAD, name)
+        self.listener.wait_for(
+            "MAP_DELTA", after=lambda: self.request(self.types.map_request_t.LOAD, "three"))
+        self.assertEqual(mapper.stop(), 0)
+        self.assertEqual(mapper.map_hash(), self.hashes[3])
+        self.assertEqual(mapper.value("failed.MAP_REQUEST"), 4)
+
+    def test_a_late_joiner_has_the_map_within_two_seconds_of_asking(self):
+        mapper = self.start_and_wait(self.folder / "late")
+        self.feed(0, 3)
+        started = time.monotonic()
+        data = self.listener.wait_for(
+            "MAP_SNAPSHOT", lambda data: self.types.map_t.decode(data).utime == self.utimes[2],
+            after=lambda: self.request(self.types.map_request_t.SNAPSHOT))
+        self.assertLess(time.monotonic() - started, 1.0)
+        self.assertGreater(self.types.map_t.decode(data).n_features, 0)
+        self.assertEqual(mapper.stop(), 0)
+
+    def test_a_folder_serves_one_mapper(self):
+        state = self.folder / "shared"
+        first = self.start_and_wait(state)
+        second = self.start(state, prefix="elsewhere/")
+        second.process.wait(10)
+        self.assertEqual(second.stop(), 1)
+        self.assertIn("another process uses it", second.errors)
+        self.assertEqual(first.stop(), 0)
+
+
+if __name__ == "__main__":
+    PROGRAMS = live_system.enter_namespace(sys.argv[1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)
