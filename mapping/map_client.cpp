@@ -146,14 +146,14 @@ void MapClient::apply_pending() {
   drop_through(deltas_, revision());
   while (!deltas_.empty() && deltas_.begin()->first == revision() + 1 &&
          is_complete(deltas_.begin()->second)) {
-    const std::optional<ViewDelta> delta = from_messages(in_order(deltas_.begin()->second));
+    if (view_.epoch != epoch_) view_ = MapView{0, *epoch_, 0, {}};  // every epoch begins empty
+    const auto delta = from_messages(in_order(deltas_.begin()->second), view_);
     drop_through(deltas_, revision() + 1);
     if (!delta) {
       ++refused_;
       lost_ = true;
       break;
     }
-    if (view_.epoch != epoch_) view_ = MapView{0, *epoch_, 0, {}};  // every epoch begins empty
     apply(*delta, view_);
     hash_.reset();
   }

@@ -30,8 +30,15 @@ geomap::map_feature_t without_outline(const ViewFeature& feature) {
   return message;
 }
 
+const geometry::Polygon& polygon_in(const MapView& view, const FeatureId& id) {
+  static const geometry::Polygon kNone;
+  const auto found = view.features.find(id);
+  return found == view.features.end() ? kNone : found->second.polygon;
+}
+
 std::optional<ViewFeature> with_outline(const geomap::map_feature_t& message,
-                                        const std::vector<std::uint8_t>& outline) {
+                                        const std::vector<std::uint8_t>& outline,
+                                        const MapView& before) {
   ViewFeature feature;
   feature.id = from_message(message.id);
   std::copy(std::begin(message.origin), std::end(message.origin), feature.origin.begin());
@@ -45,7 +52,7 @@ std::optional<ViewFeature> with_outline(const geomap::map_feature_t& message,
   std::copy(std::begin(message.color), std::end(message.color), feature.color.begin());
   feature.locked = message.locked != 0;
   feature.label = message.label;
-  auto polygon = decode_outline(outline);
+  auto polygon = decode_outline(outline, polygon_in(before, feature.id));
   if (!polygon || !is_sound(feature)) return std::nullopt;
   feature.polygon = std::move(*polygon);
   return feature;
@@ -54,13 +61,14 @@ std::optional<ViewFeature> with_outline(const geomap::map_feature_t& message,
 // The features of all parts, pieces of one outline joined.
 template <class Message>
 std::optional<std::vector<ViewFeature>> features_of(
-    const std::vector<Message>& parts, std::vector<geomap::map_feature_t> Message::*list) {
+    const std::vector<Message>& parts, std::vector<geomap::map_feature_t> Message::*list,
+    const MapView& before) {
   std::vector<ViewFeature> features;
   const geomap::map_feature_t* open = nullptr;
   std::vector<std::uint8_t> outline;
   const auto close = [&] {
     if (open == nullptr) return true;
-    auto feature = with_outline(*open, outline);
+    auto feature = with_outline(*open, outline, before);
     if (!feature || (!features.empty() && feature->id <= features.back().id)) return false;
     features.push_back(std::move(*feature));
     outline.clear();
@@ -116,10 +124,12 @@ class Packer {
     is_part_empty_ = false;
   }
 
-  void add(std::vector<geomap::map_feature_t> Message::*list, const ViewFeature& feature) {
+  void add(std::vector<geomap::map_feature_t> Message::*list, const ViewFeature& feature,
+           const MapView& before) {
     const geomap::map_feature_t blank = without_outline(feature);
     const auto blank_bytes = static_cast<std::size_t>(blank._getEncodedSizeNoHash());
-    const std::vector<std::uint8_t> outline = encode_outline(feature.polygon);
+    const std::vector<std::uint8_t> outline =
+        encode_outline(feature.polygon, polygon_in(before, feature.id));
     for (auto at = outline.begin(); at != outline.end();) {
       const auto rest = static_cast<std::size_t>(outline.end() - at);
       if (room_ < blank_bytes + std::min(rest, kLeastPiece)) begin_part();
@@ -157,7 +167,7 @@ class Packer {
 
 }  // namespace
 
-std::vector<geomap::map_delta_t> to_messages(const ViewDelta& delta) {
+std::vector<geomap::map_delta_t> to_messages(const ViewDelta& delta, const MapView& before) {
   using Message = geomap::map_delta_t;
   Message blank{};
   blank.utime = delta.utime;
@@ -165,7 +175,9 @@ std::vector<geomap::map_delta_t> to_messages(const ViewDelta& delta) {
   blank.revision = delta.revision;
   blank.cause = static_cast<std::int8_t>(delta.cause);
   Packer<Message> packer(std::move(blank));
-  for (const ViewFeature& feature : delta.changed) packer.add(&Message::changed, feature);
+  for (const ViewFeature& feature : delta.changed) {
+    packer.add(&Message::changed, feature, before);
+  }
   for (const FeatureId& id : delta.removed) packer.add(&Message::removed, to_message(id));
   for (const auto& [id, survivor] : delta.absorbed) {
     packer.add(&Message::absorbed,
@@ -182,15 +194,16 @@ std::vector<geomap::map_t> to_messages(const MapView& view) {
   blank.revision = view.revision;
   blank.view_hash = view_hash(view);
   Packer<Message> packer(std::move(blank));
-  for (const auto& [id, feature] : view.features) packer.add(&Message::features, feature);
+  for (const auto& [id, feature] : view.features) packer.add(&Message::features, feature, {});
   return packer.take();
 }
 
-std::optional<ViewDelta> from_messages(const std::vector<geomap::map_delta_t>& parts) {
+std::optional<ViewDelta> from_messages(const std::vector<geomap::map_delta_t>& parts,
+                                       const MapView& before) {
   if (!belong_together(parts)) return std::nullopt;
   const std::int8_t cause = parts[0].cause;
   if (cause < 0 || cause > static_cast<std::int8_t>(kLastViewCause)) return std::nullopt;
-  auto changed = features_of(parts, &geomap::map_delta_t::changed);
+  auto changed = features_of(parts, &geomap::map_delta_t::changed, before);
   if (!changed) return std::nullopt;
   ViewDelta delta;
   delta.utime = parts[0].utime;
@@ -209,7 +222,7 @@ std::optional<ViewDelta> from_messages(const std::vector<geomap::map_delta_t>& p
 
 std::optional<MapView> from_messages(const std::vector<geomap::map_t>& parts) {
   if (!belong_together(parts)) return std::nullopt;
-  auto features = features_of(parts, &geomap::map_t::features);
+  auto features = features_of(parts, &geomap::map_t::features, {});
   if (!features) return std::nullopt;
   MapView view{parts[0].utime, parts[0].epoch, parts[0].revision, {}};
   for (ViewFeature& feature : *features) {

@@ -17,13 +17,15 @@ inline constexpr std::size_t kMostViewMessageBytes = 1400;
 
 /// @brief A delta as the messages that carry it; a single one when it fits. Only a label longer
 /// than a message makes a larger one.
-std::vector<geomap::map_delta_t> to_messages(const ViewDelta& delta);
+/// @param before view that the receiver has: of outlines only what is new is sent.
+std::vector<geomap::map_delta_t> to_messages(const ViewDelta& delta, const MapView& before);
 /// @brief The same for a snapshot of a view.
 std::vector<geomap::map_t> to_messages(const MapView& view);
 
 /// @brief The inverse, for all parts in order: nothing when they do not belong together, features
 /// are not ascending, or one is not sound.
-std::optional<ViewDelta> from_messages(const std::vector<geomap::map_delta_t>& parts);
+std::optional<ViewDelta> from_messages(const std::vector<geomap::map_delta_t>& parts,
+                                       const MapView& before);
 /// @brief The same; nothing either when the view does not have the hash that was stated.
 std::optional<MapView> from_messages(const std::vector<geomap::map_t>& parts);
 

@@ -38,7 +38,7 @@ void MapViewPublisher::publish(const FeatureSet& features, const MapChange& chan
   ViewDelta delta = delta_after(view_, features, change, config_.tolerance);
   delta.utime = utime;
   delta.cause = cause;
-  for (const geomap::map_delta_t& part : to_messages(delta)) {
+  for (const geomap::map_delta_t& part : to_messages(delta, view_)) {
     live_.publish(channels::kMapDelta, part);
   }
   apply(delta, view_);

@@ -4,7 +4,9 @@
 // for the same kind of scene: 0.0067 rad and 7.1 mm without noise, 0.058 rad and 137 mm at 20 mm.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iostream>
+#include <vector>
 
 #include "drivers/data_set_writer.hpp"
 #include "drivers/scene_file.hpp"
@@ -13,14 +15,18 @@
 #include "drivers/truth_file.hpp"
 #include "logs/map_evaluation.hpp"
 #include "logs/replay.hpp"
+#include "mapping/map_journal.hpp"
+#include "mapping/map_view_messages.hpp"
+#include "messaging/encode.hpp"
 
 namespace geomap::logs {
 namespace {
 
 const std::string kConfig = GEOMAP_SOURCE_DIR "/config/";
 
-MapEvaluation evaluate(const std::string& scene_name, double sigma) {
-  const testing::TemporaryFolder folder;
+/// Writes sweep.lcmlog and sweep.truth.yaml, and the replay's results to out/.
+ReplayResult replay_sweep(const testing::TemporaryFolder& folder, const std::string& scene_name,
+                          double sigma) {
   const drivers::Scene scene = drivers::read_scene(kConfig + "scenes/" + scene_name + ".yaml");
   const drivers::CameraTrajectory sweep(
       drivers::read_robot_trajectory(kConfig + "trajectories/sweep.yaml"));
@@ -33,7 +39,12 @@ MapEvaluation evaluate(const std::string& scene_name, double sigma) {
   options.log = (folder / "sweep.lcmlog").string();
   options.output = folder / "out";
   options.threads = 2;
-  const ReplayResult result = replay(options, messaging::Config::load());
+  return replay(options, messaging::Config::load());
+}
+
+MapEvaluation evaluate(const std::string& scene_name, double sigma) {
+  const testing::TemporaryFolder folder;
+  const ReplayResult result = replay_sweep(folder, scene_name, sigma);
   const MapEvaluation evaluation =
       evaluate_map(result.report.map.features, drivers::read_truth(folder / "sweep.truth.yaml"));
   std::cout << scene_name << ", " << sigma << " m: " << evaluation.features_counted << " features, "
@@ -81,6 +92,36 @@ TEST(SimulatedKitchen, CurvedObjectsAreNoPlanes) {
   expect_within(map, {0.002, 0.003, 0.003});
   EXPECT_TRUE(map.false_features->empty());
   EXPECT_EQ(*map.features_per_component, 1.0);
+}
+
+template <class Message>
+std::size_t bytes_of(const std::vector<Message>& parts) {
+  std::size_t bytes = 0;
+  for (const Message& part : parts) bytes += messaging::encode(part).size();
+  return bytes;
+}
+
+/// The paper's map of a kitchen took 6.5 kB.
+TEST(SimulatedKitchen, TheOperatorsLinkCarriesHalfAKilobyteAKeyFrame) {
+  const testing::TemporaryFolder folder;
+  replay_sweep(folder, "kitchen", 0.02);
+  const mapping::SavedMap saved = mapping::load_map(folder / "out" / "map.lcmlog");
+  mapping::GeometricMap map(saved.merge, saved.history);
+  mapping::MapView view;
+  std::vector<std::size_t> deltas;
+  for (const mapping::MapEvent& event : saved.events) {
+    const mapping::MapChange change = map.apply(event).change;
+    const mapping::ViewDelta delta = mapping::delta_after(view, map.features(), change, {});
+    deltas.push_back(bytes_of(to_messages(delta, view)));
+    apply(delta, view);
+  }
+  ASSERT_GT(deltas.size(), 50U);
+  const std::size_t snapshot = bytes_of(to_messages(view));
+  std::sort(deltas.begin(), deltas.end());
+  std::cout << "MAP_DELTA: median " << deltas[deltas.size() / 2] << " bytes, largest "
+            << deltas.back() << "; whole view " << snapshot << "\n";
+  EXPECT_LE(deltas[deltas.size() / 2], 500U);
+  EXPECT_LE(snapshot, 6500U);
 }
 
 }  // namespace

@@ -43,8 +43,9 @@ class Mapper {
     }
     const ApplyResult applied = map_.apply(event);
     const ViewDelta delta = delta_after(view_, map_.features(), applied.change, {});
+    const auto messages = as_messages(to_messages(delta, view_));
     apply(delta, view_);
-    return as_messages(to_messages(delta));
+    return messages;
   }
   std::vector<Message> snapshot() const { return as_messages(to_messages(view_)); }
   const MapView& view() const { return view_; }

@@ -126,6 +126,20 @@ TEST(OutlineCode, GivesBackEveryPolygon) {
 
 TEST(OutlineCode, TakesFewBytesAVertex) { EXPECT_LT(encode_outline(star(100)).size(), 420U); }
 
+TEST(OutlineCode, OfAnOutlineThatGrewOnlyTheNewPartIsSent) {
+  const Polygon before = star(200);
+  const Polygon hole = {{{geometry::rectangle({0.5, 0.5}, {0.6, 0.6}), {}}}};
+  const Polygon more = {{{geometry::rectangle({2.5, -0.2}, {3.4, 0.2}), {}}}};
+  for (const Polygon& now : {before, geometry::subtract(before, hole),
+                             geometry::unite(before, more), geometry::subtract(before, more)}) {
+    const std::vector<std::uint8_t> bytes = encode_outline(now, before);
+    EXPECT_LT(bytes.size(), 60U);
+    EXPECT_EQ(decode_outline(bytes, before), now);
+    EXPECT_FALSE(decode_outline(bytes));
+    EXPECT_NE(decode_outline(bytes, star(198)), now);
+  }
+}
+
 TEST(OutlineCode, RefusesWhatIsNoPolygon) {
   const std::vector<std::uint8_t> sound = encode_outline(star(30));
   ASSERT_TRUE(decode_outline(sound));
@@ -136,19 +150,20 @@ TEST(OutlineCode, RefusesWhatIsNoPolygon) {
   longer.push_back(0);
   EXPECT_FALSE(decode_outline(longer));
   EXPECT_FALSE(decode_outline(std::vector<std::uint8_t>(100, 0xff)));
-  EXPECT_FALSE(decode_outline(std::vector<std::uint8_t>{0}));                          // no part
-  EXPECT_FALSE(decode_outline(std::vector<std::uint8_t>{1, 1, 3, 0, 0, 0, 0, 0, 0}));  // no area
+  EXPECT_FALSE(decode_outline(std::vector<std::uint8_t>{0}));                             // no part
+  EXPECT_FALSE(decode_outline(std::vector<std::uint8_t>{1, 1, 3, 6, 0, 0, 0, 0, 0, 0}));  // no area
   EXPECT_FALSE(decode_outline(encode_outline(star(30, 2000.0))));  // farther than 1 km
 }
 
 TEST(OutlineCode, SurvivesRandomBytes) {
   std::mt19937 random(1);
   for (int i = 0; i < 100'000; ++i) {
-    std::vector<std::uint8_t> bytes = encode_outline(star(6));
+    const Polygon before = star(i % 2 == 0 ? 6 : 4);
+    std::vector<std::uint8_t> bytes = encode_outline(star(6), before);
     for (int flips = 0; flips < 3; ++flips) {
       bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
     }
-    const auto polygon = decode_outline(bytes);
+    const auto polygon = decode_outline(bytes, before);
     EXPECT_TRUE(!polygon || geometry::find_fault(*polygon).empty());
   }
 }
@@ -191,11 +206,11 @@ TEST(MapViewMessages, GoIntoPacketsAndComeBackTheSame) {
     EXPECT_EQ(view_hash(*received), view_hash(view));
 
     const ViewDelta delta = delta_with(view);
-    const auto messages = to_messages(delta);
+    const auto messages = to_messages(delta, {});
     for (const geomap::map_delta_t& part : messages) {
       EXPECT_LE(messaging::encode(part).size(), kMostViewMessageBytes);
     }
-    EXPECT_EQ(from_messages(messages), delta);
+    EXPECT_EQ(from_messages(messages, {}), delta);
   }
 }
 
@@ -209,7 +224,7 @@ TEST(MapViewMessages, PacketsAreFilled) {
 TEST(MapViewMessages, AnEmptyViewIsOneMessage) {
   EXPECT_EQ(to_messages(MapView{}).size(), 1U);
   EXPECT_TRUE(from_messages(to_messages(MapView{})));
-  EXPECT_EQ(to_messages(ViewDelta{}).size(), 1U);
+  EXPECT_EQ(to_messages(ViewDelta{}, {}).size(), 1U);
 }
 
 TEST(MapViewMessages, WhatDoesNotBelongTogetherOrIsNotSoundIsRefused) {
