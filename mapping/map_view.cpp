@@ -15,7 +15,6 @@ void add(Digest& digest, const ViewFeature& feature) {
   for (const std::int16_t value : feature.x_axis) digest.add(value);
   digest.add(feature.polygon);
   digest.add(feature.observations);
-  digest.add(feature.last_utime);
   digest.add(feature.rms);
   digest.add(feature.sigma_angle);
   digest.add(feature.sigma_d);

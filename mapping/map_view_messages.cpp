@@ -20,7 +20,6 @@ geomap::map_feature_t without_outline(const ViewFeature& feature) {
   std::copy(feature.normal.begin(), feature.normal.end(), message.normal_ppm);
   std::copy(feature.x_axis.begin(), feature.x_axis.end(), message.x_axis);
   message.observations = feature.observations;
-  message.last_utime = feature.last_utime;
   message.rms = feature.rms;
   message.sigma_angle = feature.sigma_angle;
   message.sigma_d = feature.sigma_d;
@@ -45,7 +44,6 @@ std::optional<ViewFeature> with_outline(const geomap::map_feature_t& message,
   std::copy(std::begin(message.normal_ppm), std::end(message.normal_ppm), feature.normal.begin());
   std::copy(std::begin(message.x_axis), std::end(message.x_axis), feature.x_axis.begin());
   feature.observations = message.observations;
-  feature.last_utime = message.last_utime;
   feature.rms = message.rms;
   feature.sigma_angle = message.sigma_angle;
   feature.sigma_d = message.sigma_d;

@@ -160,10 +160,12 @@ void MapperProcess::load(const std::string& name) {
 }
 
 void MapperProcess::publish(const MapChange& change, ViewCause cause) {
+  const messaging::Stopwatch viewing;
   const EventHistory::Keyframes& keyframes = map_.history().keyframes();
   view_.publish(map_.features(), change, cause,
                 keyframes.empty() ? map_.history().forgotten_through().value_or(0)
                                   : keyframes.rbegin()->first);
+  live_.health().time("view", viewing.seconds());
 }
 
 void MapperProcess::report_trouble() {

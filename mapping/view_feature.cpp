@@ -15,7 +15,7 @@ using geometry::Ring;
 
 constexpr double kNormalUnit = 1e-6;
 constexpr double kAxisUnit = 1.0 / 30000.0;
-constexpr double kAngleUnit = 1e-6;      // [rad]
+constexpr double kAngleUnit = 1e-5;      // [rad]
 constexpr double kAxesTolerance = 1e-3;  // far more than rounding does
 
 template <class Integer>
@@ -89,11 +89,10 @@ ViewFeature quantised(const MapFeature& feature) {
   view.normal = rounded<std::int32_t>(normal, kNormalUnit);
   view.x_axis = rounded<std::int16_t>(along.normalized(), kAxisUnit);
   view.polygon = surface.polygon;
-  view.observations = static_cast<std::int32_t>(feature.observations.size());
-  view.last_utime = feature.last_utime();
-  view.rms = rounded<std::int32_t>(feature.rms, geometry::kGridUnit);
-  view.sigma_angle = rounded<std::int32_t>(feature.sigma_angle, kAngleUnit);
-  view.sigma_d = rounded<std::int32_t>(feature.sigma_d, geometry::kGridUnit);
+  view.observations = rounded<std::int16_t>(static_cast<double>(feature.observations.size()), 1.0);
+  view.rms = rounded<std::int16_t>(feature.rms, geometry::kGridUnit);
+  view.sigma_angle = rounded<std::int16_t>(feature.sigma_angle, kAngleUnit);
+  view.sigma_d = rounded<std::int16_t>(feature.sigma_d, geometry::kGridUnit);
   std::transform(feature.color.begin(), feature.color.end(), view.color.begin(),
                  [](double value) { return rounded<std::uint8_t>(value, 1.0); });
   view.label = feature.label;

@@ -22,11 +22,10 @@ struct ViewFeature {
   std::array<std::int16_t, 3> x_axis{};  // of the frame [1/30000]
   geometry::Polygon polygon;             // frame's coordinates
 
-  std::int32_t observations = 0;        // key frames' planes in it
-  std::int64_t last_utime = 0;          // newest key frame in it [us]
-  std::int32_t rms = 0;                 // of the points about the plane [0.1 mm]
-  std::int32_t sigma_angle = 0;         // of the normal [1e-6 rad]
-  std::int32_t sigma_d = 0;             // of the offset at the centroid [0.1 mm]
+  std::int16_t observations = 0;        // key frames' planes in it
+  std::int16_t rms = 0;                 // of the points about the plane [0.1 mm]
+  std::int16_t sigma_angle = 0;         // of the normal [1e-5 rad]
+  std::int16_t sigma_d = 0;             // of the offset at the centroid [0.1 mm]
   std::array<std::uint8_t, 3> color{};  // red, green, blue
   bool locked = false;                  // by the operator, against merging
   std::string label;                    // given by the operator; empty: none
@@ -34,7 +33,8 @@ struct ViewFeature {
   bool operator==(const ViewFeature&) const = default;
 };
 
-/// @brief The nearest view of a feature. Numbers beyond 200 km from the origin are cut off there.
+/// @brief The nearest view of a feature. What is beyond a number's range is cut off there: 200 km
+/// of the origin, 3 m of a deviation.
 ViewFeature quantised(const MapFeature& feature);
 
 /// @brief The surface in metres.
