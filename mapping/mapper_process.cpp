@@ -170,13 +170,22 @@ void MapperProcess::publish(const MapChange& change, ViewCause cause) {
 
 void MapperProcess::report_trouble() {
   const std::string& trouble = journal_->trouble();
-  live_.health().set_trouble(trouble.empty() ? geomap::health_t::GOOD : geomap::health_t::FAILING,
-                             trouble);
+  if (trouble == reported_trouble_) return;
+  reported_trouble_ = trouble;
+  if (trouble.empty()) {
+    messaging::log_info("all of the map is stored again");
+    live_.health().set_trouble(geomap::health_t::GOOD, "");
+  } else {
+    messaging::log_error(trouble);
+    live_.health().set_trouble(geomap::health_t::FAILING, trouble);
+  }
 }
 
 std::string MapperProcess::summary() const {
-  return fmt::format("{} features of {} key frames\nmap_hash {}\n", map_.features().size(),
-                     map_.history().keyframes().size(), map_hash(map_.features()));
+  const MapView& view = view_.view();
+  return fmt::format("{} features of {} key frames\nmap_hash {}\nview_hash {}, revision {}\n",
+                     map_.features().size(), map_.history().keyframes().size(),
+                     map_hash(map_.features()), view_hash(view), view.revision);
 }
 
 }  // namespace geomap::mapping

@@ -56,6 +56,7 @@ class MapperProcess {
   MapViewPublisher view_;
   messaging::SequenceGaps sequence_;
   bool is_paused_ = false;
+  std::string reported_trouble_;  // of the journal, in HEALTH and log
 };
 
 }  // namespace geomap::mapping
