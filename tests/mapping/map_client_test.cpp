@@ -9,6 +9,9 @@
 
 #include "mapping/map_view_messages.hpp"
 #include "mapping/scene.hpp"
+#include "messaging/message_schema.hpp"
+#include "messaging/random_message.hpp"
+#include "messaging/safe_decode.hpp"
 
 namespace geomap::mapping {
 namespace {
@@ -179,6 +182,25 @@ TEST_F(MapClientTest, ForgedMessagesDoNotKeepItFromTheTruth) {
   }
   EXPECT_GT(client_.refused(), 0);
   give(mapper_.snapshot());
+  give(mapper_.snapshot());
+  EXPECT_EQ(seen(), sent());
+}
+
+TEST_F(MapClientTest, RandomMessagesDoNoHarm) {
+  std::mt19937 random(6);
+  give(mapper_.change());
+  const auto& schemas = messaging::known_schemas().all();
+  const auto take_random = [&]<class M>(const M&, const std::string& name) {
+    const std::vector<std::uint8_t> bytes = testing::random_message(schemas.at(name), random).bytes;
+    const auto decoded = messaging::safe_decode<M>(bytes.data(), bytes.size());
+    if (decoded.message) client_.take(*decoded.message, now_);
+  };
+  for (int i = 0; i < 5'000; ++i) {
+    take_random(geomap::map_delta_t{}, "geomap.map_delta_t");
+    take_random(geomap::map_t{}, "geomap.map_t");
+  }
+  EXPECT_GT(client_.refused(), 1'000);
+  wait(11s);  // some came from a later epoch
   give(mapper_.snapshot());
   EXPECT_EQ(seen(), sent());
 }
