@@ -55,7 +55,11 @@ class Process:
         self.name = pathlib.Path(command[0]).name
         self.out = open(pathlib.Path(cwd) / f"{self.name}-{time.monotonic_ns()}.out", "w+")
         self.err = open(self.out.name[:-3] + "err", "w+")
-        self.process = subprocess.Popen(command, stdout=self.out, stderr=self.err, cwd=cwd)
+        # Under AddressSanitizer freed memory counts as used until it leaves the quarantine.
+        environment = {**os.environ, "ASAN_OPTIONS":
+                       os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1"}
+        self.process = subprocess.Popen(command, stdout=self.out, stderr=self.err, cwd=cwd,
+                                        env=environment)
 
     def is_running(self):
         return self.process.poll() is None
