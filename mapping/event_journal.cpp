@@ -76,9 +76,9 @@ GeometricMap EventJournal::open(const MergeConfig& merge, const HistoryConfig& h
     recovery_ += "; folded anew, because the settings of merging differ";
     replace(map);
   }
-  recovery_ += fmt::format("; the map has {} features of {} key frames, map_hash {}",
-                           map.features().size(), map.history().keyframes().size(),
-                           map_hash(map.features()));
+  recovery_ +=
+      fmt::format("; the map has {} features of {} key frames, map_hash {}", map.features().size(),
+                  map.history().keyframes().size(), map_hash(map.features()));
   return map;
 }
 
