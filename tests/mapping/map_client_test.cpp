@@ -67,6 +67,7 @@ class Mapper {
   }
   std::vector<Message> snapshot() const { return as_messages(to_messages(view_)); }
   const MapView& view() const { return view_; }
+  const FeatureSet& features() const { return map_.features(); }
 
  private:
   template <class List>
@@ -121,6 +122,18 @@ TEST_F(MapClientTest, DeltasInOrderEqualTheSnapshot) {
   EXPECT_EQ(requests_, 0);
   EXPECT_GE(most_parts, 3U);
   EXPECT_GE(absorbed, 5U);
+}
+
+TEST_F(MapClientTest, WhatItSeesIsTheMapWithinTheTolerance) {
+  for (int i = 0; i < 60; ++i) {
+    give(mapper_.change());
+    ASSERT_EQ(client_.view().features.size(), mapper_.features().size());
+    for (const auto& [id, feature] : mapper_.features()) {
+      const auto found = client_.view().features.find(id);
+      ASSERT_NE(found, client_.view().features.end()) << to_string(id);
+      EXPECT_FALSE(looks_different(found->second, quantised(*feature), {}));
+    }
+  }
 }
 
 TEST_F(MapClientTest, ASnapshotThatDeltasHaveOvertakenIsNotWaitedFor) {
