@@ -23,25 +23,32 @@ std::vector<std::string> MapViewConfig::validate() const {
   return messages;
 }
 
-MapViewPublisher::MapViewPublisher(const MapViewConfig& config, const FeatureSet& features,
+MapViewPublisher::MapViewPublisher(const MapViewConfig& config, const GeometricMap& map,
                                    messaging::LiveProcess& live)
     : live_(live), config_(config) {
   view_.epoch = live_.health().started();
-  if (!features.empty()) {
-    apply(delta_after(view_, features, difference({}, features), config_.tolerance), view_);
+  if (!map.features().empty()) {
+    apply(delta_of(map, difference({}, map.features()), ViewCause::kLoad), view_);
   }
   live_.every(kLookPeriod, [this] { publish_due_snapshot(); });
 }
 
-void MapViewPublisher::publish(const FeatureSet& features, const MapChange& change, ViewCause cause,
-                               std::int64_t utime) {
-  ViewDelta delta = delta_after(view_, features, change, config_.tolerance);
-  delta.utime = utime;
-  delta.cause = cause;
+void MapViewPublisher::publish(const GeometricMap& map, const MapChange& change, ViewCause cause) {
+  const ViewDelta delta = delta_of(map, change, cause);
   for (const geomap::map_delta_t& part : to_messages(delta, view_)) {
     live_.publish(channels::kMapDelta, part);
   }
   apply(delta, view_);
+}
+
+ViewDelta MapViewPublisher::delta_of(const GeometricMap& map, const MapChange& change,
+                                     ViewCause cause) const {
+  ViewDelta delta = delta_after(view_, map.features(), change, config_.tolerance);
+  const EventHistory::Keyframes& keyframes = map.history().keyframes();
+  delta.utime =
+      keyframes.empty() ? map.history().forgotten_through().value_or(0) : keyframes.rbegin()->first;
+  delta.cause = cause;
+  return delta;
 }
 
 void MapViewPublisher::publish_due_snapshot() {

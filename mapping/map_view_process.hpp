@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mapping/geometric_map.hpp"
 #include "mapping/map_view.hpp"
 #include "messaging/live_process.hpp"
 
@@ -30,13 +31,12 @@ struct MapViewConfig {
 /// every few seconds and on request.
 class MapViewPublisher {
  public:
-  /// @param features that are there already: whoever follows needs a snapshot first.
-  MapViewPublisher(const MapViewConfig& config, const FeatureSet& features,
+  /// @param map what is there already: whoever follows needs a snapshot first.
+  MapViewPublisher(const MapViewConfig& config, const GeometricMap& map,
                    messaging::LiveProcess& live);
 
-  /// @param utime id of the newest key frame in the map [us].
-  void publish(const FeatureSet& features, const MapChange& change, ViewCause cause,
-               std::int64_t utime);
+  /// @brief Tells what a change has made of the map.
+  void publish(const GeometricMap& map, const MapChange& change, ViewCause cause);
   /// @brief The next one comes within a quarter of a second, however many ask.
   void request_snapshot() { is_requested_ = true; }
 
@@ -45,6 +45,7 @@ class MapViewPublisher {
  private:
   using Clock = std::chrono::steady_clock;
 
+  ViewDelta delta_of(const GeometricMap& map, const MapChange& change, ViewCause cause) const;
   void publish_due_snapshot();
 
   messaging::LiveProcess& live_;

@@ -36,7 +36,7 @@ MapperProcess::MapperProcess(const MapperConfig& config, std::unique_ptr<EventJo
       config_(config),
       journal_(std::move(journal)),
       map_(first_map()),
-      view_(config.view, map_.features(), live) {
+      view_(config.view, map_, live) {
   live_.on<geomap::plane_set_t>(channels::kPlanes, Keep::kEvery,
                                 [this](const geomap::plane_set_t& planes) { take_planes(planes); });
   live_.on<geomap::keyframe_update_t>(
@@ -161,10 +161,7 @@ void MapperProcess::load(const std::string& name) {
 
 void MapperProcess::publish(const MapChange& change, ViewCause cause) {
   const messaging::Stopwatch viewing;
-  const EventHistory::Keyframes& keyframes = map_.history().keyframes();
-  view_.publish(map_.features(), change, cause,
-                keyframes.empty() ? map_.history().forgotten_through().value_or(0)
-                                  : keyframes.rbegin()->first);
+  view_.publish(map_, change, cause);
   live_.health().time("view", viewing.seconds());
 }
 
