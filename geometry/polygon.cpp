@@ -91,6 +91,15 @@ AreaMoments area_moments(const Polygon& polygon) {
   return result;
 }
 
+std::vector<GridPoint> vertices(const Polygon& polygon) {
+  std::vector<GridPoint> vertices;
+  for (const PolygonPart& part : polygon.parts) {
+    vertices.insert(vertices.end(), part.outer.begin(), part.outer.end());
+    for (const Ring& hole : part.holes) vertices.insert(vertices.end(), hole.begin(), hole.end());
+  }
+  return vertices;
+}
+
 std::size_t vertex_count(const Polygon& polygon) {
   std::size_t count = 0;
   for (const Ring* ring : rings_of(polygon)) count += ring->size();

@@ -65,6 +65,9 @@ double signed_area(const Ring& ring);
 double area(const Polygon& polygon);
 AreaMoments area_moments(const Polygon& polygon);
 
+/// @brief The vertices of all rings: part after part, outer ring before holes.
+std::vector<GridPoint> vertices(const Polygon& polygon);
+
 /// @brief Number of vertices of all rings.
 std::size_t vertex_count(const Polygon& polygon);
 

@@ -19,18 +19,6 @@ using geometry::Polygon;
 
 constexpr std::array<double, 3> kNoColor{};
 
-std::vector<GridPoint> sorted_vertices(const Polygon& polygon) {
-  std::vector<GridPoint> vertices;
-  for (const geometry::PolygonPart& part : polygon.parts) {
-    vertices.insert(vertices.end(), part.outer.begin(), part.outer.end());
-    for (const geometry::Ring& hole : part.holes) {
-      vertices.insert(vertices.end(), hole.begin(), hole.end());
-    }
-  }
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
-}
-
 // Without parts that no disc of this diameter fits in.
 Polygon without_slivers(Polygon polygon, double diameter) {
   std::erase_if(polygon.parts, [&](const geometry::PolygonPart& part) {
@@ -129,7 +117,8 @@ Polygon united_outline(const Polygon& old_outline, const Polygon& added, double 
   // Grown back, and by as much again so that it overlaps the old outline.
   const Polygon extension = geometry::intersect(added, geometry::offset(core, 1.5 * tolerance));
   const Polygon both = geometry::unite(old_outline, extension);
-  const std::vector<GridPoint> old_vertices = sorted_vertices(old_outline);
+  std::vector<GridPoint> old_vertices = geometry::vertices(old_outline);
+  std::sort(old_vertices.begin(), old_vertices.end());
   return geometry::simplify(both, tolerance, [&](GridPoint vertex) {
     return std::binary_search(old_vertices.begin(), old_vertices.end(), vertex);
   });

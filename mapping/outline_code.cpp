@@ -18,19 +18,9 @@ constexpr std::uint64_t kMostVertices = 20'000;
 constexpr std::uint64_t kMostRings = kMostVertices / 3;
 constexpr std::size_t kLeastCopied = 2;  // vertices; a single one is as short in itself
 
-// All vertices, ring after ring.
-std::vector<GridPoint> vertices_of(const Polygon& polygon) {
-  std::vector<GridPoint> vertices;
-  for (const PolygonPart& part : polygon.parts) {
-    vertices.insert(vertices.end(), part.outer.begin(), part.outer.end());
-    for (const Ring& hole : part.holes) vertices.insert(vertices.end(), hole.begin(), hole.end());
-  }
-  return vertices;
-}
-
 class Writer {
  public:
-  explicit Writer(const Polygon& before) : known_(vertices_of(before)) {
+  explicit Writer(const Polygon& before) : known_(geometry::vertices(before)) {
     for (std::size_t i = 0; i < known_.size(); ++i) place_.emplace(known_[i], i);
   }
 
@@ -99,7 +89,7 @@ class Writer {
 class Reader {
  public:
   Reader(std::span<const std::uint8_t> bytes, const Polygon& before)
-      : bytes_(bytes), known_(vertices_of(before)) {}
+      : bytes_(bytes), known_(geometry::vertices(before)) {}
 
   std::uint64_t count(std::uint64_t least, std::uint64_t most) {
     const std::uint64_t value = number();

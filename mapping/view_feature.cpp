@@ -38,55 +38,42 @@ Eigen::Vector3d vector(const std::array<Integer, 3>& v, double unit) {
   return unit * Eigen::Vector3d(v[0], v[1], v[2]);
 }
 
-template <class Use>
-void for_each_ring(const Polygon& polygon, const Use& use) {
-  for (const geometry::PolygonPart& part : polygon.parts) {
-    use(part.outer);
-    std::for_each(part.holes.begin(), part.holes.end(), use);
+double squared_distance(const Ring& ring, const Eigen::Vector2d& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  Eigen::Vector2d p = geometry::to_metres(ring.back());
+  for (const GridPoint vertex : ring) {
+    const Eigen::Vector2d q = geometry::to_metres(vertex);
+    const Eigen::Vector2d along = q - p;
+    const double t = std::clamp((point - p).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (p + t * along - point).squaredNorm());
+    p = q;
   }
-}
-
-std::vector<GridPoint> sorted_vertices(const Polygon& polygon) {
-  std::vector<GridPoint> vertices;
-  for_each_ring(polygon, [&](const Ring& ring) {
-    vertices.insert(vertices.end(), ring.begin(), ring.end());
-  });
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
+  return nearest;
 }
 
 double distance_to_border(const Polygon& polygon, const Eigen::Vector2d& point) {
-  double nearest = std::numeric_limits<double>::infinity();  // squared
-  for_each_ring(polygon, [&](const Ring& ring) {
-    Eigen::Vector2d p = geometry::to_metres(ring.back());
-    for (const GridPoint vertex : ring) {
-      const Eigen::Vector2d q = geometry::to_metres(vertex);
-      const Eigen::Vector2d along = q - p;
-      const double t = std::clamp((point - p).dot(along) / along.squaredNorm(), 0.0, 1.0);
-      nearest = std::min(nearest, (p + t * along - point).squaredNorm());
-      p = q;
-    }
-  });
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const geometry::PolygonPart& part : polygon.parts) {
+    nearest = std::min(nearest, squared_distance(part.outer, point));
+    for (const Ring& hole : part.holes) nearest = std::min(nearest, squared_distance(hole, point));
+  }
   return std::sqrt(nearest);
 }
 
 // Is a vertex of `moved` farther than `distance` from the plane or the border of `surface`?
 bool leaves(const PlanarPolygon& moved, const PlanarPolygon& surface, double distance) {
   const Eigen::Isometry3d T_plane_world = surface.frame.T_plane_parent();
-  const std::vector<GridPoint> corners = sorted_vertices(surface.polygon);
-  const auto is_far = [&](GridPoint vertex) {
+  std::vector<GridPoint> corners = geometry::vertices(surface.polygon);
+  std::sort(corners.begin(), corners.end());
+  const std::vector<GridPoint> vertices = geometry::vertices(moved.polygon);
+  return std::any_of(vertices.begin(), vertices.end(), [&](GridPoint vertex) {
     const Eigen::Vector3d p = T_plane_world * moved.lift(vertex);
     if (std::abs(p.z()) > distance) return true;
     // Most vertices of an outline stay for good, which saves the search for the nearest edge.
     const bool is_corner = std::binary_search(corners.begin(), corners.end(), vertex) &&
                            (p.head<2>() - geometry::to_metres(vertex)).norm() <= distance;
     return !is_corner && distance_to_border(surface.polygon, p.head<2>()) > distance;
-  };
-  bool leaves = false;
-  for_each_ring(moved.polygon, [&](const Ring& ring) {
-    leaves = leaves || std::any_of(ring.begin(), ring.end(), is_far);
   });
-  return leaves;
 }
 
 }  // namespace
