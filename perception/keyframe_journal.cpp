@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/keyframe_journal.hpp"
 
+#include <string_view>
 #include <utility>
 
 #include "messaging/convert_frame.hpp"
@@ -85,6 +86,7 @@ void KeyframeJournal::keep(const TrackedFrame& frame, const Tracker& tracker) {
   if (thin == nullptr) return;
   TrackingMessages messages;
   messages.send(frame, [&](const char* channel, std::int64_t utime, auto message) {
+    if (std::string_view(channel) == channels::kCameraPose) return;  // KEYFRAME says the same
     if constexpr (std::is_same_v<decltype(message), geomap::keyframe_t>) {
       message.frame = exact_message(*thin);
     }

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "perception/point_map_checks.hpp"
 #include "perception/thin_frame.hpp"
 #include "support/plane_renderer.hpp"
 
@@ -40,19 +41,6 @@ PointMap map_of(const std::vector<View>& views) {
   return map;
 }
 
-void expect_same(const PointMap& a, const PointMap& b) {
-  const auto points_a = a.points();
-  const auto points_b = b.points();
-  ASSERT_EQ(points_a.size(), points_b.size());
-  for (std::size_t i = 0; i < points_a.size(); ++i) {
-    EXPECT_EQ(points_a[i].position, points_b[i].position);
-    EXPECT_EQ(points_a[i].covariance, points_b[i].covariance);
-    EXPECT_EQ(points_a[i].color, points_b[i].color);
-  }
-  EXPECT_EQ(a.keyframes(), b.keyframes());
-  EXPECT_EQ(a.memory_bytes(), b.memory_bytes());
-}
-
 TEST(PointMap, HoldsTheReadingsOfThinFrames) {
   const std::vector<View> all = views(2);
   const PointMap map = map_of(all);
@@ -77,7 +65,7 @@ TEST(PointMap, DroppingAKeyFrameIsAsIfItHadNeverBeen) {
   EXPECT_TRUE(map.remove(all[1].id));
   EXPECT_FALSE(map.remove(all[1].id));
   all.erase(all.begin() + 1);
-  expect_same(map, map_of(all));
+  testing::expect_same(map, map_of(all));
 }
 
 TEST(PointMap, MovingAKeyFrameIsAsIfItHadAlwaysBeenThere) {
@@ -88,10 +76,10 @@ TEST(PointMap, MovingAKeyFrameIsAsIfItHadAlwaysBeenThere) {
   EXPECT_TRUE(map.move(all[1].id, all[1].T_world_camera));
   EXPECT_FALSE(map.move(kStart - 1, all[1].T_world_camera));
   const PointMap expected = map_of(all);
-  expect_same(map, expected);
+  testing::expect_same(map, expected);
   map.remove(all[1].id);  // and it is remembered where it is now
   all.erase(all.begin() + 1);
-  expect_same(map, map_of(all));
+  testing::expect_same(map, map_of(all));
 }
 
 TEST(PointMap, ARefusedFrameOrPoseChangesNothing) {
@@ -105,16 +93,16 @@ TEST(PointMap, ARefusedFrameOrPoseChangesNothing) {
   EXPECT_THROW(map.insert(all[1].id, all[1].frame, scaled), std::invalid_argument);
   EXPECT_THROW(map.insert(all[1].id, cut, all[1].T_world_camera), std::invalid_argument);
   EXPECT_THROW(map.move(all[0].id, scaled), std::invalid_argument);
-  expect_same(map, map_of({all[0]}));
+  testing::expect_same(map, map_of({all[0]}));
 }
 
 TEST(PointMap, ClearLeavesAnEmptyMap) {
   const std::vector<View> all = views(2);
   PointMap map = map_of(all);
   map.clear();
-  expect_same(map, PointMap());
+  testing::expect_same(map, PointMap());
   map.insert(all[0].id, all[0].frame, all[0].T_world_camera);
-  expect_same(map, map_of({all[0]}));
+  testing::expect_same(map, map_of({all[0]}));
 }
 
 TEST(PointMap, RefusesAConfigurationThatMakesNoSense) {
