@@ -42,9 +42,7 @@ MapperProcess::MapperProcess(const MapperConfig& config, std::unique_ptr<EventJo
   live_.on<geomap::keyframe_update_t>(
       channels::kKeyframeUpdate, Keep::kEvery,
       [this](const geomap::keyframe_update_t& update) { take_update(update); });
-  live_.on<geomap::map_request_t>(
-      channels::kMapRequest, Keep::kEvery,
-      [this](const geomap::map_request_t& request) { take_request(request); });
+  live_.on_request([this](const geomap::map_request_t& request) { take_request(request); });
   if (!journal_) return;
   messaging::log_info(journal_->recovery());
   live_.every(kRetryPeriod, [this] {
@@ -61,7 +59,7 @@ GeometricMap MapperProcess::first_map() const {
 void MapperProcess::take_planes(const geomap::plane_set_t& message) {
   live_.note_missing(channels::kPlanes, sequence_.note(message.session, message.sequence));
   live_.health().note_utime(message.utime);
-  if (is_paused_) {
+  if (live_.is_paused()) {
     live_.health().count("paused.keyframes");
     return;
   }
@@ -94,11 +92,6 @@ void MapperProcess::take_update(const geomap::keyframe_update_t& update) {
 void MapperProcess::take_request(const geomap::map_request_t& request) {
   using Request = geomap::map_request_t;
   switch (request.kind) {
-    case Request::PAUSE:
-    case Request::RESUME:
-      is_paused_ = request.kind == Request::PAUSE;
-      messaging::log_info(is_paused_ ? "paused" : "resumed");
-      break;
     case Request::CLEAR:
     case Request::RESET:
       replace_map({config_.merge, config_.history}, ViewCause::kReset);

@@ -55,7 +55,6 @@ class MapperProcess {
   GeometricMap map_;
   MapViewPublisher view_;
   messaging::SequenceGaps sequence_;
-  bool is_paused_ = false;
   std::string reported_trouble_;  // of the journal, in HEALTH and log
 };
 

@@ -8,6 +8,7 @@
 
 #include "messaging/channels.hpp"
 #include "messaging/log.hpp"
+#include "messaging/stopwatch.hpp"
 
 namespace geomap::messaging {
 namespace {
@@ -17,10 +18,6 @@ constexpr double kListen = 1.2;        // for another copy, before anything is d
 
 Inbox::Clock::duration seconds(double value) {
   return std::chrono::duration_cast<Inbox::Clock::duration>(std::chrono::duration<double>(value));
-}
-
-double seconds_since(Inbox::Clock::time_point start) {
-  return std::chrono::duration<double>(Inbox::Clock::now() - start).count();
 }
 
 std::int64_t host_microseconds() {
@@ -52,6 +49,19 @@ void LiveProcess::on_bytes(const std::string& channel, Keep keep,
                            std::function<void(const std::string& channel, Bytes data)> handler) {
   bus_.subscribe(channel, keep);
   handlers_[channel] = std::move(handler);
+}
+
+void LiveProcess::on_request(std::function<void(const geomap::map_request_t&)> handler) {
+  using Request = geomap::map_request_t;
+  on<Request>(channels::kMapRequest, Keep::kEvery,
+              [this, handler = std::move(handler)](const Request& request) {
+                if (request.kind != Request::PAUSE && request.kind != Request::RESUME) {
+                  handler(request);
+                  return;
+                }
+                is_paused_ = request.kind == Request::PAUSE;
+                log_info(is_paused_ ? "paused" : "resumed");
+              });
 }
 
 void LiveProcess::every(double period, std::function<void()> task) {
@@ -108,7 +118,7 @@ void LiveProcess::take_health(const geomap::health_t& other) {
 }
 
 void LiveProcess::dispatch(const Received& message) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch handling;
   health_.count("in." + message.channel);
   try {
     handlers_.at(message.channel)(message.channel, message.data);
@@ -118,7 +128,7 @@ void LiveProcess::dispatch(const Received& message) {
     health_.count("failed." + message.channel);
     log_error(message.channel + ": " + error.what());
   }
-  if (message.channel != channels::kHealth) health_.time(message.channel, seconds_since(start));
+  if (message.channel != channels::kHealth) health_.time(message.channel, handling.seconds());
 }
 
 LiveProcess::Clock::time_point LiveProcess::next_due() const {

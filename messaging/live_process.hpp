@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "geomap/map_request_t.hpp"
 #include "messaging/bus.hpp"
 #include "messaging/health.hpp"
 #include "messaging/program.hpp"
@@ -25,7 +26,8 @@ struct LiveOptions {
 };
 void declare_live(OptionParser& parser, LiveOptions& options);
 
-/// @brief A message is missing where every one counts.
+/// @brief What a process cannot go on after: a message is missing where every one counts, or the
+/// process runs already.
 class FatalFault : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -59,6 +61,10 @@ class LiveProcess {
     });
   }
 
+  /// @brief Takes MAP_REQUEST. PAUSE and RESUME are seen to here; the rest goes to the handler.
+  void on_request(std::function<void(const geomap::map_request_t&)> handler);
+  bool is_paused() const { return is_paused_; }
+
   /// @brief Called again and again, between messages.
   void every(double seconds, std::function<void()> task);
 
@@ -78,7 +84,7 @@ class LiveProcess {
 
   /// @brief Runs until Ctrl-C or request_stop(); then `finish` is called after the last message.
   /// @param summary what to print at the end beside counts and latencies.
-  /// @return 0. @throws FatalFault; std::runtime_error when the process runs already.
+  /// @return 0. @throws FatalFault.
   int run(const std::function<void()>& finish, const std::function<std::string()>& summary);
 
  private:
@@ -100,6 +106,7 @@ class LiveProcess {
   Health health_;
   std::map<std::string, std::function<void(const std::string&, Bytes)>> handlers_;
   std::vector<Task> tasks_;
+  bool is_paused_ = false;
 };
 
 }  // namespace geomap::messaging

@@ -36,9 +36,7 @@ RegisterProcess::RegisterProcess(const RegisterConfig& config, messaging::LivePr
   }
   live_.on_bytes(channels::kPose, Keep::kEvery, sensor);
   live_.on_bytes(channels::kCameraToBody, Keep::kEvery, sensor);
-  live_.on<geomap::map_request_t>(
-      channels::kMapRequest, Keep::kEvery,
-      [this](const geomap::map_request_t& request) { take_request(request); });
+  live_.on_request([this](const geomap::map_request_t& request) { take_request(request); });
   live_.on<geomap::map_edit_t>(channels::kMapEdit, Keep::kEvery,
                                [this](const geomap::map_edit_t& edit) { take_edit(edit); });
   live_.every(1.0, [this] { note_counts(); });
@@ -57,11 +55,11 @@ void RegisterProcess::restore(const std::string& folder) {
 }
 
 // A full disk must not stop the robot; HEALTH tells.
-template <typename Record>
-void RegisterProcess::keep(const Record& record) {
+template <typename Write>
+void RegisterProcess::keep(const Write& write) {
   if (!journal_) return;
   try {
-    record();
+    write();
     live_.health().set_trouble(geomap::health_t::GOOD, {});
   } catch (const std::runtime_error& error) {
     live_.health().count("not_kept");
@@ -76,7 +74,7 @@ void RegisterProcess::finish() {
 
 void RegisterProcess::take_sensor(const std::string& channel, messaging::LiveProcess::Bytes data) {
   const bool is_frame = channel != channels::kPose && channel != channels::kCameraToBody;
-  if (is_paused_ && is_frame) {
+  if (live_.is_paused() && is_frame) {
     live_.health().count("paused.frames");
     return;
   }
@@ -87,11 +85,6 @@ void RegisterProcess::take_sensor(const std::string& channel, messaging::LivePro
 void RegisterProcess::take_request(const geomap::map_request_t& request) {
   using Request = geomap::map_request_t;
   switch (request.kind) {
-    case Request::PAUSE:
-    case Request::RESUME:
-      is_paused_ = request.kind == Request::PAUSE;
-      messaging::log_info(is_paused_ ? "paused" : "resumed");
-      break;
     case Request::CLEAR:
       tracking_.tracker().clear();
       keep([this] { journal_->clear(); });
@@ -105,7 +98,7 @@ void RegisterProcess::take_request(const geomap::map_request_t& request) {
       messaging::log_info("reset: the next key frame is the first one");
       break;
     case Request::SNAPSHOT:
-      publish_points(true);
+      if (request.name.empty() || request.name == channels::kPointMap) publish_points(true);
       break;
     default:
       break;  // the mapper's

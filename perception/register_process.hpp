@@ -42,8 +42,8 @@ class RegisterProcess {
   void take_edit(const geomap::map_edit_t& edit);
   void take_tracked(const TrackedFrame& frame);
   void restore(const std::string& folder);
-  template <typename Record>
-  void keep(const Record& record);
+  template <typename Write>
+  void keep(const Write& write);
   void publish_points(bool complete);
   void note_counts();
 
@@ -52,7 +52,6 @@ class RegisterProcess {
   SensorMessages sensors_;
   TrackingMessages messages_;
   std::optional<KeyframeJournal> journal_;
-  bool is_paused_ = false;
   std::int64_t noted_missing_ = 0;
   std::int64_t newest_utime_ = 0;  // of a frame [us]
   std::int64_t epoch_ = 0;         // of KEYFRAME_UPDATE

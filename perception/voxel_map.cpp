@@ -164,6 +164,7 @@ std::size_t VoxelMap::insert(const RgbdFrame& frame, const Eigen::Isometry3d& T_
 
 std::size_t VoxelMap::remove(const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera,
                              const SurfaceImage* surfaces) {
+  std::optional<BlockIndex> last;  // noted as changed: the next reading is mostly in the same
   const auto take_away = [&](const VoxelAddress& address, const VoxelReading& reading) {
     const auto found = blocks_.find(address.block);
     MapVoxel* voxel = found == blocks_.end() ? nullptr : found->second.find(address.number);
@@ -171,7 +172,7 @@ std::size_t VoxelMap::remove(const RgbdFrame& frame, const Eigen::Isometry3d& T_
       throw std::invalid_argument("voxel map: the frame to remove was not inserted");
     }
     reading.apply<-1>(*voxel);
-    changed_.insert(address.block);
+    if (last != address.block) changed_.insert(*(last = address.block));
     if (voxel->count > 0) return;
     found->second.erase(address.number);
     --voxels_;
