@@ -19,18 +19,9 @@ using testing::distance_to_outline;
 using testing::polygon_of;
 using testing::RandomShapes;
 
-std::vector<GridPoint> vertices_of(const Polygon& polygon) {
-  std::vector<GridPoint> vertices;
-  for (const PolygonPart& part : polygon.parts) {
-    vertices.insert(vertices.end(), part.outer.begin(), part.outer.end());
-    for (const Ring& hole : part.holes) vertices.insert(vertices.end(), hole.begin(), hole.end());
-  }
-  return vertices;
-}
-
 double farthest_from(const Polygon& outline, const Polygon& polygon) {
   double farthest = 0.0;
-  for (const GridPoint p : vertices_of(polygon)) {
+  for (const GridPoint p : vertices(polygon)) {
     farthest = std::max(farthest, distance_to_outline(outline, to_metres(p)));
   }
   return farthest;
@@ -90,14 +81,14 @@ TEST(Simplify, FixedVerticesStay) {
   for (int round = 0; round < 20; ++round) {
     const Polygon polygon = random.jagged_polygon(120, 0.01);
     std::set<GridPoint> fixed;
-    for (const GridPoint p : vertices_of(polygon)) {
+    for (const GridPoint p : vertices(polygon)) {
       if (random.below(5) == 0) fixed.insert(p);
     }
     const Polygon fewer = simplify(polygon, 0.01, [&](GridPoint p) { return fixed.contains(p); });
     EXPECT_EQ(find_fault(fewer), "");
     EXPECT_LE(farthest_from(fewer, polygon), 0.01 * (1.0 + 1e-9));
     EXPECT_LT(vertex_count(fewer), vertex_count(polygon));
-    const std::vector<GridPoint> left = vertices_of(fewer);
+    const std::vector<GridPoint> left = vertices(fewer);
     for (const GridPoint p : fixed) {
       EXPECT_NE(std::find(left.begin(), left.end(), p), left.end());
     }
