@@ -12,7 +12,8 @@ import subprocess
 import sys
 import time
 
-SOURCE = pathlib.Path(__file__).parents[2]
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCE = HERE.parents[1]
 UDP = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=2097152"
 TCP = "tcpq://127.0.0.1:7700"
 LCM_JAR = pathlib.Path("/usr/share/java/lcm.jar")
@@ -56,8 +57,9 @@ class Process:
         self.out = open(pathlib.Path(cwd) / f"{self.name}-{time.monotonic_ns()}.out", "w+")
         self.err = open(self.out.name[:-3] + "err", "w+")
         # Under AddressSanitizer freed memory counts as used until it leaves the quarantine.
-        environment = {**os.environ, "ASAN_OPTIONS":
-                       os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1"}
+        environment = {**os.environ,
+                       "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":quarantine_size_mb=1",
+                       "LSAN_OPTIONS": f"suppressions={HERE / 'leak_suppressions.txt'}"}
         self.process = subprocess.Popen(command, stdout=self.out, stderr=self.err, cwd=cwd,
                                         env=environment)
 
