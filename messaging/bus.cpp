@@ -30,19 +30,20 @@ bool is_plain(char c) {
 
 bool is_tcp(const std::string& url) { return url.starts_with("tcpq:"); }
 
-// "tcpq://HOST:PORT?options" as host and port, with LCM's defaults.
-std::pair<std::string, std::string> broker_of(const std::string& url) {
+// "tcpq://HOST:PORT?options" or "udpm://..." as host and port, with LCM's defaults.
+std::pair<std::string, std::string> address_of(const std::string& url) {
   std::string address = url.substr(url.find("//") == std::string::npos ? 5 : url.find("//") + 2);
   address = address.substr(0, address.find('?'));
   const std::size_t colon = address.find(':');
   const std::string host = address.substr(0, colon);
-  return {host.empty() ? "127.0.0.1" : host,
-          colon == std::string::npos ? "7700" : address.substr(colon + 1)};
+  const std::string port = colon == std::string::npos ? "" : address.substr(colon + 1);
+  return {host.empty() ? (is_tcp(url) ? "127.0.0.1" : "239.255.76.67") : host,
+          port.empty() ? (is_tcp(url) ? "7700" : "7667") : port};
 }
 
 // Does anybody listen? LCM itself loses a file descriptor with each attempt that fails.
 bool answers(const std::string& url) {
-  const auto [host, port] = broker_of(url);
+  const auto [host, port] = address_of(url);
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
@@ -60,9 +61,18 @@ bool answers(const std::string& url) {
 
 }  // namespace
 
+// Over multicast the port decides: a socket hears all groups that any process of its host has
+// joined.
+bool is_same_bus(const std::string& url, const std::string& other) {
+  if (is_tcp(url) != is_tcp(other)) return false;
+  const auto [host, port] = address_of(url);
+  const auto [other_host, other_port] = address_of(other);
+  return port == other_port && (!is_tcp(url) || host == other_host);
+}
+
 Bus::Bus(const BusConfig& config)
     : config_(config),
-      inbox_(static_cast<std::size_t>(1e6 * std::max(1.0, config.spool_mb)),
+      inbox_(static_cast<std::size_t>(1e6 * config.spool_mb),
              config.lossless && is_tcp(config.url) ? WhenFull::kWait : WhenFull::kDrop) {
   const std::string& prefix = config_.channel_prefix;
   if (prefix.size() > kLongestName / 2 || !std::all_of(prefix.begin(), prefix.end(), is_plain)) {

@@ -27,6 +27,9 @@ struct BusConfig {
   double spool_mb = 512.0;     // messages that may wait for their turn
 };
 
+/// @brief True when what is sent at one URL is received at the other.
+bool is_same_bus(const std::string& url, const std::string& other);
+
 /// @brief A process's connection to the others over LCM. A thread of its own receives, so that
 /// nothing is lost while the process works; what arrives waits in an inbox.
 ///

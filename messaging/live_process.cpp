@@ -37,7 +37,7 @@ void declare_live(OptionParser& parser, LiveOptions& options) {
 
 LiveProcess::LiveProcess(const std::string& name, const CommonOptions& common,
                          const LiveOptions& live)
-    : bus_({common.lcm_url, common.channel_prefix, live.lossless, live.spool_mb}),
+    : bus_({common.lcm_url, common.channel_prefix, live.lossless, std::max(1.0, live.spool_mb)}),
       health_(name, common.config.hash(), host_microseconds()) {
   set_log_name(name);
   on<geomap::health_t>(channels::kHealth, Keep::kEvery,
