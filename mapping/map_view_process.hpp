@@ -15,6 +15,7 @@ namespace geomap::mapping {
 /// @brief What the operator is sent.
 struct MapViewConfig {
   double snapshot_period = 5.0;  // between two MAP_SNAPSHOT [s]
+  double kbit_per_s = 200.0;     // that the link carries; snapshots leave room for the rest
   ViewTolerance tolerance;
 
   std::vector<std::string> validate() const;
@@ -22,6 +23,7 @@ struct MapViewConfig {
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& visitor) {
     visitor("snapshot_period", self.snapshot_period);
+    visitor("kbit_per_s", self.kbit_per_s);
     visitor("view_distance", self.tolerance.distance);
     visitor("view_area_share", self.tolerance.area_share);
   }
@@ -37,7 +39,8 @@ class MapViewPublisher {
 
   /// @brief Tells what a change has made of the map.
   void publish(const GeometricMap& map, const MapChange& change, ViewCause cause);
-  /// @brief The next one comes within a quarter of a second, however many ask.
+  /// @brief The next one comes within a quarter of a second, or as soon as the link has carried the
+  /// one before, however many ask.
   void request_snapshot() { is_requested_ = true; }
 
   const MapView& view() const { return view_; }
@@ -53,6 +56,7 @@ class MapViewPublisher {
   MapView view_;
   bool is_requested_ = true;
   Clock::time_point published_;
+  double carried_in_ = 0.0;  // the newest snapshot, by the link [s]
 };
 
 }  // namespace geomap::mapping
