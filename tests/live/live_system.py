@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The three stages as processes, in a network namespace of their own, for tests."""
+import collections
 import contextlib
 import os
 import pathlib
@@ -10,6 +11,7 @@ import socket
 import struct
 import subprocess
 import sys
+import threading
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -103,9 +105,10 @@ class System:
         self.stages[name] = Process([str(self.programs / name), *self.options, *more], self.folder)
         return self.stages[name]
 
-    def start_all(self):
+    def start_all(self, options=None):
+        """options: of single stages, by name."""
         for name in STAGES:
-            self.start(name)
+            self.start(name, *(options or {}).get(name, ()))
         time.sleep(1.5)  # until they receive, and have heard that they are the only ones
         return self
 
@@ -164,6 +167,52 @@ class Publisher:
         self.sequence += 1
         packet = struct.pack(">II", 0x4C433032, self.sequence) + channel.encode() + b"\0" + data
         self.socket.sendto(packet, ("239.255.76.67", 7667))
+
+
+def read_log(path):
+    """Channel and data of every event of an LCM log."""
+    data, at = pathlib.Path(path).read_bytes(), 0
+    while at < len(data):
+        _, _, _, channel_size, size = struct.unpack_from(">IqqII", data, at)
+        at += 28 + channel_size
+        yield data[at - channel_size:at].decode(), data[at:at + size]
+        at += size
+
+
+class Listener(threading.Thread):
+    """Keeps the messages of the bus, by channel."""
+
+    def __init__(self):
+        super().__init__(daemon=True)
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
+        self.socket.bind(("239.255.76.67", 7667))
+        group = socket.inet_aton("239.255.76.67") + socket.inet_aton("127.0.0.1")
+        self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
+        self.messages = collections.defaultdict(list)
+        self.start()
+
+    def run(self):
+        while True:
+            packet = self.socket.recv(65536)
+            if packet[:4] != b"LC02":
+                continue
+            end = packet.index(b"\0", 8)
+            self.messages[packet[8:end].decode()].append(packet[end + 1:])
+
+    def wait_for(self, channel, accept=lambda data: True, after=lambda: None, timeout=10.0):
+        """The first accepted message since `after` was called."""
+        seen, deadline = len(self.messages[channel]), time.monotonic() + timeout
+        after()
+        while time.monotonic() < deadline:
+            for data in self.messages[channel][seen:]:
+                seen += 1
+                if accept(data):
+                    return data
+            time.sleep(0.005)
+        raise AssertionError(f"nothing on {channel} within {timeout} s")
 
 
 def simulate(programs, folder, seconds=4):

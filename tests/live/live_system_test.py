@@ -123,6 +123,31 @@ class LiveSystem(unittest.TestCase):
         self.assertEqual(register.value("frames"), 0)
         self.assertGreater(register.value("paused.frames"), 100)
 
+    def test_both_maps_let_go_of_a_dropped_key_frame(self):
+        listener = live_system.Listener()
+        system = self.begin().start_all()
+        without = live_system.Process([str(PROGRAMS / "geomap-mapper"), "-l", system.url,
+                                       "--channel-prefix", "without/"], self.folder)
+        system.play(self.log)
+        planes = list(listener.messages["PLANES"])
+        edit = self.types.map_edit_t()
+        edit.kind, edit.author = edit.REMOVE_KEYFRAME, "test"
+        edit.T_world_moved.rotation = [1, 0, 0, 0, 1, 0, 0, 0, 1]
+        edit.keyframe = self.types.plane_set_t.decode(planes[len(planes) // 2]).utime
+        publisher = live_system.Publisher()
+        listener.wait_for(
+            "MAP_DELTA", lambda data: (lambda delta: delta.cause == delta.KEYFRAME_REMOVAL)(
+                self.types.map_delta_t.decode(data)),
+            after=lambda: publisher.send("MAP_EDIT", edit.encode()))
+        for data in planes[:len(planes) // 2] + planes[len(planes) // 2 + 1:]:
+            publisher.send("without/PLANES", data)
+        system.stop_all()
+        without.stop()
+        register, mapper = system.stages["geomap-register"], system.stages["geomap-mapper"]
+        self.assertIn(f"{len(planes) - 1} key frames in the point map", register.output)
+        self.assertIn(f"of {len(planes) - 1} key frames", mapper.output)
+        self.assertEqual(mapper.map_hash(), without.map_hash())
+
     @staticmethod
     def hostile(kind):
         """Messages of a type that no sender could mean: counts of -1 and 2^31 - 1, cut short, NaN."""

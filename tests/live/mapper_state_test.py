@@ -3,7 +3,6 @@
 
 usage: mapper_state_test.py FOLDER_OF_PROGRAMS [unittest arguments]
 """
-import collections
 import concurrent.futures
 import json
 import pathlib
@@ -11,12 +10,9 @@ import random
 import re
 import shutil
 import signal
-import socket
-import struct
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 
@@ -25,52 +21,6 @@ import live_system
 MAPPER = "geomap-mapper"
 KILLS = 100
 AT_ONCE = 10
-
-
-def read_log(path):
-    """Channel and data of every event of an LCM log."""
-    data, at = pathlib.Path(path).read_bytes(), 0
-    while at < len(data):
-        _, _, _, channel_size, size = struct.unpack_from(">IqqII", data, at)
-        at += 28 + channel_size
-        yield data[at - channel_size:at].decode(), data[at:at + size]
-        at += size
-
-
-class Listener(threading.Thread):
-    """Keeps the messages of the bus, by channel."""
-
-    def __init__(self):
-        super().__init__(daemon=True)
-        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
-        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
-        self.socket.bind(("239.255.76.67", 7667))
-        group = socket.inet_aton("239.255.76.67") + socket.inet_aton("127.0.0.1")
-        self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
-        self.messages = collections.defaultdict(list)
-        self.start()
-
-    def run(self):
-        while True:
-            packet = self.socket.recv(65536)
-            if packet[:4] != b"LC02":
-                continue
-            end = packet.index(b"\0", 8)
-            self.messages[packet[8:end].decode()].append(packet[end + 1:])
-
-    def wait_for(self, channel, accept=lambda data: True, after=lambda: None, timeout=10.0):
-        """The first accepted message since `after` was called."""
-        seen, deadline = len(self.messages[channel]), time.monotonic() + timeout
-        after()
-        while time.monotonic() < deadline:
-            for data in self.messages[channel][seen:]:
-                seen += 1
-                if accept(data):
-                    return data
-            time.sleep(0.005)
-        raise AssertionError(f"nothing on {channel} within {timeout} s")
 
 
 class MapperState(unittest.TestCase):
@@ -82,10 +32,10 @@ class MapperState(unittest.TestCase):
         derived = cls.folder / "derived.lcmlog"
         subprocess.run([str(PROGRAMS / "geomap-replay"), str(log), "-o", str(cls.folder / "replay"),
                         "--log-out", str(derived)], check=True, capture_output=True)
-        cls.planes = [data for channel, data in read_log(derived) if channel == "PLANES"]
+        cls.planes = [data for channel, data in live_system.read_log(derived) if channel == "PLANES"]
         cls.types = live_system.message_types(cls.folder / "types")
         cls.utimes = [cls.types.plane_set_t.decode(data).utime for data in cls.planes]
-        cls.listener = Listener()
+        cls.listener = live_system.Listener()
         cls.publisher = live_system.Publisher()
         cls.hashes = cls.hashes_by_key_frames()
 
@@ -243,6 +193,33 @@ class MapperState(unittest.TestCase):
         self.assertEqual(snapshot.utime, self.utimes[2])
         self.assertGreater(snapshot.n_features, 0)
         self.assertEqual(again.stop(), 0)
+
+    def test_moved_key_frames_leave_no_double_walls(self):
+        mapper = self.start_and_wait(self.folder / "moved")
+        update = self.types.keyframe_update_t()
+        update.epoch = 1
+        half = len(self.planes) // 2
+        self.feed(0, half)
+        for data, utime in zip(self.planes[half:], self.utimes[half:]):
+            planes = self.types.plane_set_t.decode(data)
+            correction = self.types.pose_correction_t()
+            correction.keyframe, correction.T_world_camera = utime, planes.T_world_camera
+            update.corrections.append(correction)
+            planes = self.types.plane_set_t.decode(data)  # with a pose that is 30 cm off
+            planes.T_world_camera.translation = [
+                x + 0.3 for x in planes.T_world_camera.translation]
+            self.listener.wait_for(
+                "MAP_DELTA", lambda data, utime=utime: self.types.map_delta_t.decode(data).utime >= utime,
+                after=lambda planes=planes: self.publisher.send("PLANES", planes.encode()))
+        update.n_corrections = len(update.corrections)
+        self.request(self.types.map_request_t.SAVE, "doubled")
+        self.assertNotEqual(self.saved_hash(self.folder / "moved", "doubled"), self.hashes[-1])
+        self.listener.wait_for(
+            "MAP_DELTA", lambda data: (lambda delta: delta.cause == delta.POSE_CORRECTION)(
+                self.types.map_delta_t.decode(data)),
+            after=lambda: self.publisher.send("KEYFRAME_UPDATE", update.encode()))
+        self.assertEqual(mapper.stop(), 0)
+        self.assertEqual(mapper.map_hash(), self.hashes[-1])
 
     def test_a_folder_serves_one_mapper(self):
         state = self.folder / "shared"
