@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <regex>
 #include <stdexcept>
 
+#include "logs/channel_regex.hpp"
 #include "logs/log_pass.hpp"
 #include "logs/other_file.hpp"
 #include "messaging/config.hpp"
@@ -49,14 +49,6 @@ std::int64_t first_utime(const std::string& log) {
   return event ? event->log_utime : 0;
 }
 
-std::regex to_regex(const std::string& option, const std::string& text) {
-  try {
-    return std::regex(text);
-  } catch (const std::regex_error&) {
-    throw ConfigError(option + ": '" + text + "' is no regular expression");
-  }
-}
-
 /// One end of the range; `otherwise` when it is not given.
 std::int64_t limit(const std::string& option, std::optional<double> seconds,
                    std::optional<std::int64_t> utime, std::int64_t start, std::int64_t otherwise) {
@@ -77,8 +69,8 @@ CopySummary repair_log(const std::string& log, const std::string& out) {
 }
 
 CopySummary cut_log(const std::string& log, const std::string& out, const LogCut& cut) {
-  const std::regex channels = to_regex("--channels", cut.channels);
-  const std::regex not_channels = to_regex("--not-channels", cut.not_channels);
+  const std::regex channels = channel_regex("--channels", cut.channels);
+  const std::regex not_channels = channel_regex("--not-channels", cut.not_channels);
   const std::int64_t start = first_utime(log);
   using Limits = std::numeric_limits<std::int64_t>;
   const std::int64_t from = limit("--from", cut.from, cut.from_utime, start, Limits::min());

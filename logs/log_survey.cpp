@@ -2,54 +2,21 @@
 #include "logs/log_survey.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "logs/log_pass.hpp"
-#include "messaging/big_endian.hpp"
+#include "logs/message_head.hpp"
 
 namespace geomap::logs {
 namespace {
 
-using messaging::Field;
-using messaging::FieldType;
 using messaging::kFingerprintSize;
 using messaging::LogEvent;
 using messaging::MessageSchema;
 using messaging::RejectReason;
 
-std::int64_t read_int64(const std::uint8_t* bytes) {
-  return static_cast<std::int64_t>(messaging::read_unsigned(bytes, 8));
-}
-
-/// In floating point, where no damaged time overflows.
-double seconds_between(std::int64_t first_utime, std::int64_t last_utime) {
-  return 1e-6 * (static_cast<double>(last_utime) - static_cast<double>(first_utime));
-}
-
-const MessageSchema* type_of(const LogEvent& event) {
-  const auto fingerprint = messaging::fingerprint_of(event.data);
-  return fingerprint ? messaging::known_schemas().find(*fingerprint) : nullptr;
-}
-
-/// One of the plain numbers at the head of a sound message.
-std::optional<std::int64_t> leading_number(const std::string& name, const MessageSchema& type,
-                                           const LogEvent& event) {
-  std::size_t offset = kFingerprintSize;
-  for (const Field& field : type.fields) {
-    if (field.type != FieldType::kInt64 || field.array) break;
-    if (field.name == name) return read_int64(event.data.data() + offset);
-    offset += messaging::encoded_size(field.type);
-  }
-  return std::nullopt;
-}
-
 void note_sequence(ChannelSurvey& channel, const LogEvent& event) {
-  const auto session = leading_number("session", *channel.type, event);
-  const auto sequence = leading_number("sequence", *channel.type, event);
-  if (!sequence) return;
-  channel.missing =
-      channel.missing.value_or(0) +
-      (session ? channel.sequence.note(*session, *sequence) : channel.sequence.note(*sequence));
+  const auto missing = missing_before(*channel.type, event.data, channel.sequence);
+  if (missing) channel.missing = channel.missing.value_or(0) + *missing;
 }
 
 void count(FaultyEvents& events, std::int64_t offset) {
@@ -68,7 +35,7 @@ void add(ChannelSurvey& channel, const LogEvent& event, std::int64_t offset) {
   channel.last_utime = event.log_utime;
   channel.bytes += static_cast<std::int64_t>(event.data.size());
 
-  const MessageSchema* type = type_of(event);
+  const MessageSchema* type = type_of(event.data);
   if (channel.type == nullptr) channel.type = type;
   const RejectReason reason = check(channel.type, type, event);
   if (reason != RejectReason::kNone) {

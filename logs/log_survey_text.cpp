@@ -3,32 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
-#include <cmath>
 #include <ctime>
+
+#include "logs/table_text.hpp"
 
 namespace geomap::logs {
 namespace {
-
-using Row = std::array<std::string, 8>;
-
-/// A damaged name must not reach the terminal as it is.
-std::string printable(std::string name) {
-  for (char& c : name) {
-    if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
-  }
-  return name;
-}
-
-std::string size_text(double bytes) {
-  if (bytes < 1e3) return fmt::format("{:.0f} B", bytes);
-  if (bytes < 1e6) return fmt::format("{:.1f} kB", 1e-3 * bytes);
-  return fmt::format("{:.1f} MB", 1e-6 * bytes);
-}
-
-std::string size_text(std::int64_t bytes) { return size_text(static_cast<double>(bytes)); }
 
 /// "2012-06-26 09:00:00.123 UTC"
 std::string time_text(std::int64_t utime) {
@@ -42,11 +23,7 @@ std::string time_text(std::int64_t utime) {
   return fmt::format("{}.{:03} UTC", text.data(), utime / 1000 % 1000);
 }
 
-std::string times_text(std::size_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-Row row_of(const std::string& name, const ChannelSurvey& channel) {
+std::vector<std::string> row_of(const std::string& name, const ChannelSurvey& channel) {
   const bool has_rate = channel.rate() > 0.0;
   return {printable(name),
           channel.type == nullptr ? "unknown" : channel.type->name,
@@ -58,28 +35,11 @@ Row row_of(const std::string& name, const ChannelSurvey& channel) {
           channel.missing ? fmt::format("{}", *channel.missing) : "-"};
 }
 
-/// Columns as wide as need be; names to the left, numbers to the right.
-std::string table(const std::vector<Row>& rows) {
-  std::array<std::size_t, std::tuple_size_v<Row>> widths{};
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    text += fmt::format("{:<{}}  {:<{}}", row[0], widths[0], row[1], widths[1]);
-    for (std::size_t i = 2; i < row.size(); ++i) {
-      text += fmt::format("  {:>{}}", row[i], widths[i]);
-    }
-    text += '\n';
-  }
-  return text;
-}
-
 std::string verdict(const LogSurvey& survey) {
-  const std::string events = times_text(survey.events, "readable event");
+  const std::string events = count_text(survey.events, "readable event");
   if (survey.is_whole()) return fmt::format("whole: {}\n", events);
   return fmt::format("damaged: {} in {} unreadable, {} no message of its channel's type; {}\n",
-                     size_text(survey.damaged_bytes()), times_text(survey.damages.size(), "place"),
+                     size_text(survey.damaged_bytes()), count_text(survey.damages.size(), "place"),
                      survey.faulty_events(), events);
 }
 
@@ -105,13 +65,13 @@ std::string remarks_text(const LogSurvey& survey) {
   for (const auto& [name, channel] : survey.channels) {
     if (channel.missing.value_or(0) == 0) continue;
     text += fmt::format("remark: {} missing on {} by sequence number\n",
-                        times_text(static_cast<std::size_t>(*channel.missing), "message"),
+                        count_text(static_cast<std::size_t>(*channel.missing), "message"),
                         printable(name));
   }
   if (survey.times_back.count > 0) {
     text += fmt::format(
         "remark: the log's time goes back {}, by at most {:.3f} s, first at offset {}\n",
-        times_text(survey.times_back.count, "time"), survey.farthest_back,
+        count_text(survey.times_back.count, "time"), survey.farthest_back,
         survey.times_back.first_offset);
   }
   return text;
@@ -120,14 +80,14 @@ std::string remarks_text(const LogSurvey& survey) {
 }  // namespace
 
 std::string info_text(const LogSurvey& survey) {
-  std::vector<Row> rows = {
+  std::vector<std::vector<std::string>> rows = {
       {"channel", "type", "events", "Hz", "mean size", "bytes", "bandwidth", "missing"}};
   for (const auto& [name, channel] : survey.channels) rows.push_back(row_of(name, channel));
   std::string text =
-      fmt::format("{}, {:.2f} s, {}\nfrom {}\nto   {}\n\n", times_text(survey.events, "event"),
+      fmt::format("{}, {:.2f} s, {}\nfrom {}\nto   {}\n\n", count_text(survey.events, "event"),
                   survey.duration(), size_text(survey.file_bytes), time_text(survey.first_utime),
                   time_text(survey.last_utime)) +
-      table(rows) + "\n" + remarks_text(survey);
+      table_text(rows) + "\n" + remarks_text(survey);
   return text + verdict(survey);
 }
 

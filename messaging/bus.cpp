@@ -100,6 +100,12 @@ void Bus::subscribe(const std::string& channel, Keep keep) {
   lcm_->subscribe(name, &Bus::handle, this)->setQueueCapacity(kQueueCapacity);
 }
 
+// The prefix has no character with a meaning in LCM's regular expressions.
+void Bus::subscribe_all() {
+  lcm_->subscribe(config_.channel_prefix + ".*", &Bus::handle, this)
+      ->setQueueCapacity(kQueueCapacity);
+}
+
 void Bus::start() {
   is_receiving_ = true;
   receiver_ = std::thread([this] { receive(); });
@@ -134,8 +140,9 @@ void Bus::wait_for_broker() {
 void Bus::handle(const lcm::ReceiveBuffer* buffer, const std::string& channel) {
   const auto* data = static_cast<const std::uint8_t*>(buffer->data);
   try {  // nothing may be thrown through LCM
+    const auto keep = keep_.find(channel);
     inbox_.put({channel.substr(config_.channel_prefix.size()), {data, data + buffer->data_size}},
-               keep_.at(channel));
+               keep == keep_.end() ? Keep::kEvery : keep->second);
   } catch (const std::bad_alloc&) {
     inbox_.note_overflow();
   }

@@ -45,6 +45,8 @@ class Bus {
 
   /// @brief Receives a channel from start() on. @param keep when not lossless; then it is kEvery.
   void subscribe(const std::string& channel, Keep keep);
+  /// @brief Every message of every channel with the prefix.
+  void subscribe_all();
   void start();
   /// @brief Nothing is received any more; what waits can still be taken.
   void stop_receiving();

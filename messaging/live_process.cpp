@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "messaging/channels.hpp"
+#include "messaging/host_clock.hpp"
 #include "messaging/log.hpp"
 #include "messaging/stopwatch.hpp"
 
@@ -18,12 +19,6 @@ constexpr double kListen = 1.2;        // for another copy, before anything is d
 
 Inbox::Clock::duration seconds(double value) {
   return std::chrono::duration_cast<Inbox::Clock::duration>(std::chrono::duration<double>(value));
-}
-
-std::int64_t host_microseconds() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
 }
 
 }  // namespace

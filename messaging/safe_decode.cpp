@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -43,19 +42,6 @@ std::size_t largest_size(const MessageSchema& schema) {
   };
   const auto found = kLarge.find(schema.name);
   return found == kLarge.end() ? kMebibyte : found->second;
-}
-
-std::int64_t read_signed(const std::uint8_t* bytes, std::size_t size) {
-  const auto unused_bits = static_cast<int>(64 - 8 * size);
-  return static_cast<std::int64_t>(read_unsigned(bytes, size) << unused_bits) >> unused_bits;
-}
-
-double read_double(const std::uint8_t* bytes) {
-  return std::bit_cast<double>(read_unsigned(bytes, 8));
-}
-
-float read_float(const std::uint8_t* bytes) {
-  return std::bit_cast<float>(static_cast<std::uint32_t>(read_unsigned(bytes, 4)));
 }
 
 /// Unit length of what is a direction or a rotation by its name and number of elements.
