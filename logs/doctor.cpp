@@ -206,8 +206,9 @@ std::vector<Finding> check_tools() {
                         "sudo apt-get install liblcm-bin"});
   }
   if (!std::filesystem::exists("/usr/share/java/lcm.jar")) {
-    findings.push_back({Level::kNote, "LCM's Java library is not installed: no tcpq, no lcm-spy",
-                        "sudo apt-get install liblcm-java default-jre-headless"});
+    findings.push_back({Level::kNote,
+                        "LCM's Java library is not installed: no tcpq, only geomap-spy --text",
+                        "sudo apt-get install liblcm-java libjchart2d-java default-jre"});
   }
   if (findings.empty()) findings.push_back({Level::kGood, "LCM's programs are installed", {}});
   return findings;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""geomap-spy --text on a bus, in a file and in a terminal.
+"""geomap-spy on a bus: into a pipe, in a terminal, and without a display.
 
-usage: text_spy_test.py FOLDER_OF_PROGRAMS [unittest arguments]
+usage: spy_test.py FOLDER_OF_PROGRAMS [unittest arguments]
 """
 import fcntl
 import os
@@ -56,14 +56,14 @@ class Senders(threading.Thread):
         self.join()
 
 
-class TextSpy(unittest.TestCase):
+class Spy(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         with tempfile.TemporaryDirectory() as folder:
             cls.types = live_system.message_types(pathlib.Path(folder))
 
     def spy(self, *options):
-        return subprocess.run([str(PROGRAMS / "geomap-spy"), "--text", *options],
+        return subprocess.run([str(PROGRAMS / "geomap-spy"), *options],
                               capture_output=True, text=True, timeout=60, check=False)
 
     def send(self):
@@ -112,6 +112,15 @@ class TextSpy(unittest.TestCase):
             spy = self.spy(*wrong)
             self.assertEqual(spy.returncode, 2)
             self.assertRegex(spy.stderr, r"^geomap-spy: [^\n]*\n$")
+
+    def test_without_a_display_the_text_is_recommended(self):
+        without = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
+        for environment in (without, {**without, "DISPLAY": ":99999"}):
+            spy = subprocess.run([str(PROGRAMS / "geomap-spy")], env=environment, timeout=60,
+                                 capture_output=True, text=True, check=False)
+            self.assertEqual((spy.returncode, spy.stdout), (1, ""))
+            self.assertRegex(spy.stderr, r"^geomap-spy: (no display|the graphical[^\n]*);"
+                                         r"[^\n]*use --text[^\n]*\n$")
 
     def test_a_terminal_is_painted_in_place_until_ctrl_c(self):
         self.send()
