@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "logs/message_head.hpp"
 #include "logs/table_text.hpp"
@@ -83,11 +84,11 @@ class FieldReader {
   }
 
   void read_values(const Field& field, const std::string& path, std::size_t count) {
+    const bool is_one_wanted = wanted_.starts_with(path + "[");
     std::string text;
     for (std::size_t i = 0; i < count; ++i) {
       const std::string value = take_value(field.type);
-      const std::string element = fmt::format("{}[{}]", path, i);
-      if (wanted_ == element) show(element, value);
+      if (is_one_wanted && wanted_ == fmt::format("{}[{}]", path, i)) show(wanted_, value);
       if (i < kFirstNumbers) text += value + " ";
     }
     show(path, fmt::format("{}{}({})", text, count > kFirstNumbers ? ".. " : "", count));

@@ -21,8 +21,9 @@ namespace {
 
 using Clock = messaging::Inbox::Clock;
 
-constexpr double kPeriod = 1.0;   // between two tables [s]
-constexpr double kWindow = 10.0;  // of rates [s]: a snapshot every 5 s is seen twice
+constexpr double kPeriod = 1.0;            // between two tables [s]
+constexpr double kWindow = 10.0;           // of rates [s]: a snapshot every 5 s is seen twice
+constexpr double kLongestOnce = 86'400.0;  // [s]
 constexpr double kSpoolMb = 64.0;
 
 // "CHANNEL" or "CHANNEL.FIELD", where a channel's name may hold dots itself.
@@ -41,14 +42,19 @@ void listen(messaging::Bus& bus, TextSpy& spy, double seconds) {
   }
 }
 
+std::string dropped_text(std::int64_t messages) {
+  if (messages == 0) return {};
+  return fmt::format("\n{} messages came too fast to be counted\n", messages);
+}
+
 }  // namespace
 
 TextSpy::TextSpy(const TextSpyOptions& options)
     : channels_(channel_regex("--channel", options.channels)),
       fields_(options.fields),
       traffic_(options.once.value_or(kWindow)) {
-  if (options.once && !(*options.once > 0.0)) {
-    throw messaging::ConfigError("--once: seconds, more than 0");
+  if (options.once && !(*options.once > 0.0 && *options.once <= kLongestOnce)) {
+    throw messaging::ConfigError("--once: more than 0 and at most 86400 seconds");
   }
 }
 
@@ -89,7 +95,7 @@ int run_text_spy(const TextSpyOptions& options, const messaging::CommonOptions& 
     if (options.once && !spy.has_heard()) {
       throw std::runtime_error("nothing was heard: geomap-doctor finds out why");
     }
-    show(spy.text(messaging::host_microseconds()));
+    show(spy.text(messaging::host_microseconds()) + dropped_text(bus.inbox().overflowed()));
   } while (!options.once && !messaging::stop_requested());
   return 0;
 }

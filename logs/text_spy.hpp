@@ -16,10 +16,12 @@ namespace geomap::logs {
 
 /// @brief What a text spy looks at.
 struct TextSpyOptions {
-  std::string channels = ".*";  // whose whole name this regular expression matches
-  std::vector<std::string> fields =
-      {};                           // CHANNEL or CHANNEL.FIELD: shows what the newest message holds
-  std::optional<double> once = {};  // for so long, then one table [s]; else a new one every second
+  /// Channels whose whole name this regular expression matches.
+  std::string channels = ".*";
+  /// CHANNEL or CHANNEL.FIELD: shows what the newest message holds there.
+  std::vector<std::string> fields = {};
+  /// For so long, then one table [s]; else a new one every second.
+  std::optional<double> once = {};
 };
 
 /// @brief The channels of a bus and the fields of some of their messages, as text. Knows neither
