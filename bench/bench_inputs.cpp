@@ -75,11 +75,11 @@ void add_planes(const PosedFrame& posed, BenchInputs& inputs) {
 
 }  // namespace
 
-BenchInputs load_bench_inputs() {
+BenchInputs load_bench_inputs(const std::function<void(const FrameVisitor&)>& visit) {
   BenchInputs inputs;
   StagedMapping mapping;  // tells what is a key frame
   const auto unmetered = [](std::size_t, const auto& work) { work(); };
-  visit_kitchen(1, [&](drivers::SourceFrame read) {
+  visit([&](drivers::SourceFrame read) {
     const Eigen::Isometry3d T_world_camera = *read.truth_T_world_camera;
     if (!mapping.add(read.frame, T_world_camera, unmetered)) return;
     inputs.messages.push_back(drivers::to_messages(read, {}).frame);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct Overlap {
   geometry::Polygon a, b;
 };
 
-/// @brief The key frames of the recorded kitchen, and what is made of them on the way to the map.
+/// @brief The key frames of a sequence, and what is made of them on the way to the map.
 /// The first four have one entry a key frame.
 struct BenchInputs {
   std::vector<PosedFrame> frames;
@@ -28,7 +29,7 @@ struct BenchInputs {
   std::vector<Overlap> overlaps;
 };
 
-/// @brief Empty where the recording is missing under GEOMAP_DATA.
-BenchInputs load_bench_inputs();
+/// @param visit hands out all frames of the sequence, with true poses.
+BenchInputs load_bench_inputs(const std::function<void(const FrameVisitor&)>& visit);
 
 }  // namespace geomap::bench

@@ -22,6 +22,7 @@
 #include "perception/ransac_extractor.hpp"
 #include "plane_hulls.hpp"
 #include "polygon_unions.hpp"
+#include "simulated_frames.hpp"
 #include "staged_mapping.hpp"
 #include "statistics.hpp"
 
@@ -188,8 +189,17 @@ void map_messages(const BenchInputs& inputs, benchmark::State& state) {
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  const BenchInputs inputs = bench::load_bench_inputs();
+  if (argc != 1 && argc != 3) {
+    std::fprintf(stderr, "usage: keyframe_bench [SCENE.yaml TRAJECTORY.yaml] [--benchmark_...]\n");
+    return 2;
+  }
+  const BenchInputs inputs = bench::load_bench_inputs([&](const bench::FrameVisitor& visitor) {
+    if (argc == 3) {
+      bench::visit_simulation(argv[1], argv[2], visitor);
+    } else {
+      bench::visit_kitchen(1, visitor);
+    }
+  });
   if (inputs.frames.empty()) {
     std::fprintf(stderr, "keyframe_bench: no recording 'redkitchen' under GEOMAP_DATA\n");
     return 1;

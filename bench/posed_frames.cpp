@@ -9,7 +9,7 @@
 
 namespace geomap::bench {
 
-void visit_kitchen(int step, const std::function<void(drivers::SourceFrame)>& visitor) {
+void visit_kitchen(int step, const FrameVisitor& visitor) {
   constexpr int kLast = 499;
   const char* root = std::getenv("GEOMAP_DATA");
   if (root == nullptr) return;

@@ -15,9 +15,11 @@ struct PosedFrame {
   Eigen::Isometry3d T_world_camera;
 };
 
+using FrameVisitor = std::function<void(drivers::SourceFrame)>;
+
 /// @brief Hands out every `step`-th of the first 500 frames of the recorded kitchen under
 /// GEOMAP_DATA with its recorded pose; none where the recording is missing.
-void visit_kitchen(int step, const std::function<void(drivers::SourceFrame)>& visitor);
+void visit_kitchen(int step, const FrameVisitor& visitor);
 
 /// @brief The same frames without their colour.
 std::vector<PosedFrame> load_posed_kitchen(int step);

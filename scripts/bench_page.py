@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes what scripts/bench measured between the marks of a Markdown file.
 
-RESULTS holds what the programs printed: facts.txt (one line each), keyframe_bench.json,
-extraction_quality.txt, keyframe_memory.txt, registration_pairs.txt and, if any, merging_growth.txt.
+RESULTS holds what the programs printed: facts.txt (one line each), keyframe_bench.json and
+keyframe_bench_simulated.json, extraction_quality.txt, keyframe_memory.txt, registration_pairs.txt and, if any, merging_growth.txt.
 """
 import argparse
 import collections
@@ -63,6 +63,8 @@ COMPARISONS = [
         "merging/paper": "geomap, as the paper prints it",
     }),
 ]
+# File of keyframe_bench, and what is added to the titles.
+ROOMS = {"keyframe_bench.json": "", "keyframe_bench_simulated.json": ", simulated room"}
 # Prefix of keyframe/all's counters, and what it is.
 KEYFRAME = {
     "decoding_": "decoding",
@@ -118,19 +120,19 @@ def texts(figures):
     return [figure.text for figure in figures]
 
 
-def write_keyframe(counters):
+def write_keyframe(counters, room):
     rows = [[label, *texts(timed(counters, "ms", step))]
             for step, label in KEYFRAME.items()]
-    return ["### A key frame", "From the message of a log to the map.", "",
+    return [f"### A key frame{room}", "From the message of a log to the map.", "",
             *table(["step", "median [ms]", "95th percentile [ms]"], rows)]
 
 
-def timings_in(times):
+def timings_in(times, room):
     """Each comparison of times with its unit, what it counts, and how many of them."""
     for title, remark, unit, found, names in COMPARISONS:
         rows = [(label, timed(times[name], unit)) for name, label in names.items()]
         counts = [times[name]["found"] for name in names]
-        yield Comparison(title, remark, rows), unit, found, counts
+        yield Comparison(title + room, remark, rows), unit, found, counts
 
 
 def write_times(comparison, unit, found, counts):
@@ -198,15 +200,17 @@ def page(results):
     def read(name):
         return (results / name).read_text()
 
-    times = medians(json.loads(read("keyframe_bench.json")))
-    timings = list(timings_in(times))
     pairs = registration(read("registration_pairs.txt"))
     quality = "\n".join(line for line in read("extraction_quality.txt").splitlines()
                         if "labels.png" not in line)
     lines = [*(f"- {fact}" for fact in read("facts.txt").splitlines()), ""]
-    lines += write_keyframe(times["keyframe/all"])
-    for timing in timings:
-        lines += write_times(*timing)
+    compared = []
+    for file, room in ROOMS.items():
+        times = medians(json.loads(read(file)))
+        lines += write_keyframe(times["keyframe/all"], room)
+        for comparison, *timing in timings_in(times, room):
+            lines += write_times(comparison, *timing)
+            compared.append(comparison)
     lines += write_registration(pairs)
     lines += ["### Labels", quality.strip(), ""]
     lines += ["### Memory", read("keyframe_memory.txt").strip(), ""]
@@ -214,7 +218,7 @@ def page(results):
         lines += ["### Merging in a growing map", read("merging_growth.txt").strip(), ""]
     lines += ["### Worse than others", "Every figure above in which another row beats the first; geomap's "
               "own second ways count as others.", ""]
-    compared = [timing[0] for timing in timings] + [pairs, labels(quality)]
+    compared += [pairs, labels(quality)]
     lines += [line for comparison in compared for line in worse(comparison)] or ["- none"]
     return "\n".join(lines)
 
