@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <polyclipping/clipper.hpp>
 #include <stdexcept>
 
 #include "geometry/crossing_overlay.hpp"
@@ -17,43 +16,13 @@
 namespace geomap::geometry {
 namespace {
 
-namespace clipper = ClipperLib;
-
 constexpr int kSliver = 100;  // least area of a part or hole: 1 mm² [grid unit²]
 
-// An operation as both engines for any rings know it.
-struct Operation {
-  clipper::ClipType type;
-  clipper::PolyFillType fill;
-  InsideRule inside;
-};
-
-constexpr Operation kUnion{clipper::ctUnion, clipper::pftNonZero,
-                           [](int a, int b) { return a != 0 || b != 0; }};
-constexpr Operation kIntersection{clipper::ctIntersection, clipper::pftNonZero,
-                                  [](int a, int b) { return a != 0 && b != 0; }};
-constexpr Operation kDifference{clipper::ctDifference, clipper::pftNonZero,
-                                [](int a, int b) { return a != 0 && b == 0; }};
-constexpr Operation kEvenOddUnion{clipper::ctUnion, clipper::pftEvenOdd,
-                                  [](int a, int) { return a % 2 != 0; }};
-constexpr Operation kPositive{clipper::ctUnion, clipper::pftPositive,
-                              [](int a, int) { return a > 0; }};
-
-clipper::Path to_path(const Ring& ring) {
-  clipper::Path path;
-  path.reserve(ring.size());
-  for (const GridPoint p : ring) path.emplace_back(p.x, p.y);
-  return path;
-}
-
-Ring to_ring(const clipper::Path& path) {
-  Ring ring;
-  ring.reserve(path.size());
-  for (const clipper::IntPoint& p : path) {
-    ring.push_back({static_cast<std::int32_t>(p.X), static_cast<std::int32_t>(p.Y)});
-  }
-  return ring;
-}
+constexpr InsideRule kUnion = [](int a, int b) { return a != 0 || b != 0; };
+constexpr InsideRule kIntersection = [](int a, int b) { return a != 0 && b != 0; };
+constexpr InsideRule kDifference = [](int a, int b) { return a != 0 && b == 0; };
+constexpr InsideRule kEvenOdd = [](int a, int) { return a % 2 != 0; };
+constexpr InsideRule kPositive = [](int a, int) { return a > 0; };
 
 void append_rings(const Polygon& polygon, std::vector<Ring>& rings) {
   for (const Ring* ring : rings_of(polygon)) rings.push_back(*ring);
@@ -95,55 +64,24 @@ std::optional<Polygon> to_clean_polygon(const std::optional<TracedBorder>& borde
   return border->has_crossings ? checked(std::move(polygon)) : without_slivers(std::move(polygon));
 }
 
-// The clipper's tree of rings as a polygon.
-std::optional<Polygon> to_clean_polygon(const clipper::PolyTree& tree) {
-  Polygon polygon;
-  for (const clipper::PolyNode* node = tree.GetFirst(); node != nullptr; node = node->GetNext()) {
-    if (node->IsHole()) continue;
-    PolygonPart part{without_collinear(to_ring(node->Contour)), {}};
-    for (const clipper::PolyNode* child : node->Childs) {
-      Ring hole = without_collinear(to_ring(child->Contour));
-      if (!hole.empty()) part.holes.push_back(std::move(hole));
-    }
-    if (!part.outer.empty()) polygon.parts.push_back(std::move(part));
-  }
-  return checked(std::move(polygon));
-}
-
-std::optional<Polygon> by_clipper(std::span<const Ring> a, std::span<const Ring> b,
-                                  const Operation& operation) {
-  clipper::Clipper engine(clipper::ioStrictlySimple);
-  // AddPath refuses rings without area: they add nothing.
-  for (const Ring& ring : a) engine.AddPath(to_path(ring), clipper::ptSubject, true);
-  for (const Ring& ring : b) engine.AddPath(to_path(ring), clipper::ptClip, true);
-  clipper::PolyTree tree;
-  try {
-    if (!engine.Execute(operation.type, tree, operation.fill, operation.fill)) return {};
-  } catch (const clipper::clipperException&) {
-    return {};
-  }
-  return to_clean_polygon(tree);
-}
-
 // Where borders touch.
-Polygon clip_any(std::span<const Ring> a, std::span<const Ring> b, const Operation& operation) {
-  if (std::optional<Polygon> result = by_clipper(a, b, operation)) return *std::move(result);
-  return without_slivers(snap_overlay(a, b, operation.inside));
+Polygon clip_any(std::span<const Ring> a, std::span<const Ring> b, InsideRule inside) {
+  return without_slivers(snap_overlay(a, b, inside));
 }
 
-Polygon clip(std::span<const Ring> rings, const Operation& operation) {
-  auto result = to_clean_polygon(trace_overlay(rings, operation.inside));
-  return result ? *std::move(result) : clip_any(rings, {}, operation);
+Polygon clip(std::span<const Ring> rings, InsideRule inside) {
+  auto result = to_clean_polygon(trace_overlay(rings, inside));
+  return result ? *std::move(result) : clip_any(rings, {}, inside);
 }
 
-Polygon clip(const Polygon& a, const Polygon& b, const Operation& operation) {
-  auto result = to_clean_polygon(trace_overlay(a, b, operation.inside));
-  return result ? *std::move(result) : clip_any(copied_rings(a), copied_rings(b), operation);
+Polygon clip(const Polygon& a, const Polygon& b, InsideRule inside) {
+  auto result = to_clean_polygon(trace_overlay(a, b, inside));
+  return result ? *std::move(result) : clip_any(copied_rings(a), copied_rings(b), inside);
 }
 
 // Their order must not matter.
-Polygon clip_ordered(const Polygon& a, const Polygon& b, const Operation& operation) {
-  return a < b ? clip(a, b, operation) : clip(b, a, operation);
+Polygon clip_ordered(const Polygon& a, const Polygon& b, InsideRule inside) {
+  return a < b ? clip(a, b, inside) : clip(b, a, inside);
 }
 
 bool boxes_apart(const Polygon& a, const Polygon& b) {
@@ -168,7 +106,7 @@ void check_offset(const Polygon& polygon, double units) {
 }  // namespace
 
 Polygon from_rings(std::span<const Ring> rings, FillRule rule) {
-  return clip(rings, rule == FillRule::kEvenOdd ? kEvenOddUnion : kUnion);
+  return clip(rings, rule == FillRule::kEvenOdd ? kEvenOdd : kUnion);
 }
 
 Polygon unite(const Polygon& a, const Polygon& b) {

@@ -10,9 +10,8 @@ namespace geomap::geometry {
 
 /// Boolean operations on polygons of one plane frame on the 0.1 mm grid. Operands are valid
 /// polygons. Every result holds the invariant of `Polygon` and is canonical: borders that only
-/// cross are followed from crossing to crossing (crossing_overlay.hpp), others go through Vatti's
-/// algorithm (Clipper), and where that leaves rings that touch themselves or each other, snap
-/// rounding (snap_overlay.hpp) takes its place. Vertices move by at most a grid unit, exactly
+/// cross are followed from crossing to crossing (crossing_overlay.hpp), where they touch, edges
+/// are snapped to the grid (snap_overlay.hpp). Vertices move by at most a grid unit, exactly
 /// collinear ones go, and parts and holes below 1 mm² are dropped. Results do not depend on the
 /// order of the operands of unite and intersect.
 

@@ -9,8 +9,7 @@
 
 namespace geomap::geometry {
 
-/// @brief Boolean operation on any rings, whatever coincides: the way out where the clipper's
-/// result does not hold the invariant of `Polygon`.
+/// @brief Boolean operation on any rings, whatever coincides: the way out where borders touch.
 ///
 /// Edges are rounded to the grid by snap rounding (Hobby, "Practical segment intersection with
 /// finite precision output", Comput. Geom. 1999): each is led through the centres of all grid cells

@@ -18,7 +18,7 @@ bool in_either(int a, int b) { return a != 0 || b != 0; }
 bool in_both(int a, int b) { return a != 0 && b != 0; }
 bool in_odd(int a, int) { return a % 2 != 0; }
 
-TEST(SnapOverlay, AgreesWithTheClipperOnOrdinaryShapes) {
+TEST(SnapOverlay, AgreesWithFollowedBordersOnOrdinaryShapes) {
   RandomShapes random(31);
   for (int round = 0; round < 50; ++round) {
     const std::array a{random.jagged_ring(60, 0.1, {0.0, 0.0})};
