@@ -15,6 +15,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Of a frame that is published all the same: some views take longer than a frame's time [s].
+constexpr double kMostLate = 1.0;
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -90,7 +93,7 @@ SimulationSummary SimProcess::publish(lcm::LCM& lcm, const std::string& channel_
     }
     const double due = static_cast<double>(source_.position()) / rate_;
     const double late = seconds_since(start) - due;
-    if (late > 1.0 / rate_) {
+    if (late > kMostLate) {
       skip();
       ++summary.dropped;
       continue;
