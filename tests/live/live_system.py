@@ -215,18 +215,22 @@ class Listener(threading.Thread):
         raise AssertionError(f"nothing on {channel} within {timeout} s")
 
 
-def simulate(programs, folder, seconds=4):
-    """A short log of a robot that turns before the kitchen."""
+def write_trajectory(folder, seconds, turn=4):
+    """A file for geomap-sim: a robot that turns to and fro before the kitchen."""
+    waypoints = [(-2.0, 0.3, 0, 20), (-1.9, 0.5, 12 * turn, 25)]
     trajectory = folder / "turn.yaml"
-    trajectory.write_text(f"""name: turn
-camera_height: 1.4
-camera_forward: 0.1
-waypoints:
-  - {{t: 0, x: -2.0, y: 0.3, yaw_deg: 0, tilt_deg: 20}}
-  - {{t: {seconds}, x: -1.9, y: 0.5, yaw_deg: {12 * seconds}, tilt_deg: 25}}
-""")
+    lines = [f"  - {{t: {t}, x: {x}, y: {y}, yaw_deg: {yaw}, tilt_deg: {tilt}}}"
+             for t, (x, y, yaw, tilt) in ((turn * i, waypoints[i % 2])
+                                          for i in range(max(1, seconds // turn) + 1))]
+    trajectory.write_text("name: turn\ncamera_height: 1.4\ncamera_forward: 0.1\nwaypoints:\n" +
+                          "\n".join(lines) + "\n")
+    return trajectory
+
+
+def simulate(programs, folder):
+    """A short log of a robot that turns before the kitchen."""
     log = folder / "turn.lcmlog"
     subprocess.run([str(programs / "geomap-sim"), "--scene", str(SOURCE / "config/scenes/kitchen.yaml"),
-                    "--trajectory", str(trajectory), "--noise", "kinect", "--drift-m-per-m", "0.02",
-                    "--log", str(log)], check=True, capture_output=True)
+                    "--trajectory", str(write_trajectory(folder, 4)), "--noise", "kinect",
+                    "--drift-m-per-m", "0.02", "--log", str(log)], check=True, capture_output=True)
     return log
