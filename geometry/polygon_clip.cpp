@@ -49,34 +49,25 @@ Polygon without_slivers(Polygon polygon) {
   return polygon;
 }
 
-// Nothing where rings touch themselves or each other: there the rings of an engine that rounds, and
-// their nesting, cannot be relied upon, and would not be unique.
-std::optional<Polygon> checked(Polygon polygon) {
-  polygon = without_slivers(std::move(polygon));
-  if (!find_contacts(rings_of(polygon)).none()) return {};
-  if (!find_nesting_fault(polygon).empty()) return {};
-  return canonical(std::move(polygon));
-}
-
-std::optional<Polygon> to_clean_polygon(const std::optional<TracedBorder>& border) {
+// Nothing where rings touch themselves or each other since their crossings were rounded to the
+// grid: their nesting cannot be relied upon then, and would not be unique.
+std::optional<Polygon> to_polygon(const std::optional<TracedBorder>& border) {
   if (!border) return {};
-  Polygon polygon = assemble_parts(border->rings);
-  return border->has_crossings ? checked(std::move(polygon)) : without_slivers(std::move(polygon));
-}
-
-// Where borders touch.
-Polygon clip_any(std::span<const Ring> a, std::span<const Ring> b, InsideRule inside) {
-  return without_slivers(snap_overlay(a, b, inside));
+  Polygon polygon = without_slivers(assemble_parts(border->rings));
+  const bool is_sound = !border->has_crossings || (find_contacts(rings_of(polygon)).none() &&
+                                                   find_nesting_fault(polygon).empty());
+  return is_sound ? std::optional(std::move(polygon)) : std::nullopt;
 }
 
 Polygon clip(std::span<const Ring> rings, InsideRule inside) {
-  auto result = to_clean_polygon(trace_overlay(rings, inside));
-  return result ? *std::move(result) : clip_any(rings, {}, inside);
+  auto result = to_polygon(trace_overlay(rings, inside));
+  return result ? *std::move(result) : without_slivers(snap_overlay(rings, {}, inside));
 }
 
 Polygon clip(const Polygon& a, const Polygon& b, InsideRule inside) {
-  auto result = to_clean_polygon(trace_overlay(a, b, inside));
-  return result ? *std::move(result) : clip_any(copied_rings(a), copied_rings(b), inside);
+  auto result = to_polygon(trace_overlay(a, b, inside));
+  return result ? *std::move(result)
+                : without_slivers(snap_overlay(copied_rings(a), copied_rings(b), inside));
 }
 
 // Their order must not matter.
