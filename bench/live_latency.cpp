@@ -32,8 +32,7 @@ int run(const messaging::CommonOptions& common, double seconds) {
   std::map<std::int64_t, Clock::time_point> frames;  // that no delta has spoken of yet
   messaging::Latency latency;
   messaging::Latency bytes;  // of deltas, for their quantiles
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double>(seconds));
+  const auto end = Clock::now() + messaging::Inbox::duration(seconds);
   std::int64_t received = 0;
   while (!messaging::stop_requested() && Clock::now() < end) {
     const auto message = bus.take(Clock::now() + std::chrono::milliseconds(50));

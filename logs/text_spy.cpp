@@ -32,8 +32,7 @@ bool concerns(const std::string& wanted, const std::string& channel) {
 }
 
 void listen(messaging::Bus& bus, TextSpy& spy, double seconds) {
-  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                      std::chrono::duration<double>(seconds));
+  const auto end = Clock::now() + messaging::Inbox::duration(seconds);
   constexpr std::chrono::milliseconds kPoll{100};  // until it looks whether it shall end
   for (auto now = Clock::now(); now < end && !messaging::stop_requested(); now = Clock::now()) {
     if (const auto message = bus.take(std::min(end, now + kPoll))) {

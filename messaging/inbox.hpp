@@ -37,6 +37,9 @@ enum class WhenFull {
 class Inbox {
  public:
   using Clock = std::chrono::steady_clock;
+  static Clock::duration duration(double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
 
   /// @param most_bytes that may wait. A single larger message still finds room in an empty inbox.
   Inbox(std::size_t most_bytes, WhenFull when_full);

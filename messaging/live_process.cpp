@@ -17,10 +17,6 @@ namespace {
 constexpr double kHealthPeriod = 1.0;  // [s]
 constexpr double kListen = 1.2;        // for another copy, before anything is done [s]
 
-Inbox::Clock::duration seconds(double value) {
-  return std::chrono::duration_cast<Inbox::Clock::duration>(std::chrono::duration<double>(value));
-}
-
 }  // namespace
 
 void declare_live(OptionParser& parser, LiveOptions& options) {
@@ -60,7 +56,7 @@ void LiveProcess::on_request(std::function<void(const geomap::map_request_t&)> h
 }
 
 void LiveProcess::every(double period, std::function<void()> task) {
-  tasks_.push_back({seconds(period), Clock::now(), std::move(task)});
+  tasks_.push_back({Inbox::duration(period), Clock::now(), std::move(task)});
 }
 
 void LiveProcess::reject(const std::string& channel, const std::string& reason) {
@@ -97,7 +93,7 @@ int LiveProcess::run(const std::function<void()>& finish,
 // What else arrives meanwhile waits in the inbox.
 void LiveProcess::refuse_second_copy() {
   publish_health();
-  const Clock::time_point end = Clock::now() + seconds(kListen);
+  const Clock::time_point end = Clock::now() + Inbox::duration(kListen);
   while (!stop_requested()) {
     const auto message = bus_.take(channels::kHealth, end);
     if (!message) break;

@@ -26,10 +26,6 @@ constexpr double kSpool = 3.0;            // messages that wait, as time on the 
 constexpr double kLeastSpool = 0.1;       // a large map, whole [MB]
 constexpr double kBytesPerKbit = 1000.0 / 8;
 
-Clock::duration seconds(double value) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
-}
-
 }  // namespace
 
 Relay::Relay(const RelayConfig& config) : config_(config) {
@@ -67,7 +63,7 @@ void Relay::run() {
 void Relay::carry(Bus& from, Bus& to) {
   std::map<std::string, Clock::duration> periods;
   for (const RelayedChannel& channel : config_.channels) {
-    periods[channel.name] = seconds(channel.period);
+    periods[channel.name] = Inbox::duration(channel.period);
   }
   std::map<std::string, Clock::time_point> due;
   std::int64_t too_large = 0;
@@ -92,7 +88,7 @@ void Relay::carry(Bus& from, Bus& to) {
     ++sent_;
     sent_bytes_ += static_cast<std::int64_t>(bytes);
     std::this_thread::sleep_until(
-        now + seconds(static_cast<double>(bytes) / (kBytesPerKbit * config_.kbit_per_s)));
+        now + Inbox::duration(static_cast<double>(bytes) / (kBytesPerKbit * config_.kbit_per_s)));
   }
 }
 
