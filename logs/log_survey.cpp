@@ -14,11 +14,6 @@ using messaging::LogEvent;
 using messaging::MessageSchema;
 using messaging::RejectReason;
 
-void note_sequence(ChannelSurvey& channel, const LogEvent& event) {
-  const auto missing = missing_before(*channel.type, event.data, channel.sequence);
-  if (missing) channel.missing = channel.missing.value_or(0) + *missing;
-}
-
 void count(FaultyEvents& events, std::int64_t offset) {
   if (events.count++ == 0) events.first_offset = offset;
 }
@@ -41,7 +36,7 @@ void add(ChannelSurvey& channel, const LogEvent& event, std::int64_t offset) {
   if (reason != RejectReason::kNone) {
     count(channel.faulty[reason], offset);
   } else {
-    note_sequence(channel, event);
+    count_missing(*channel.type, event.data, channel.sequence, channel.missing);
   }
 }
 

@@ -35,13 +35,13 @@ double seconds_between(std::int64_t first_utime, std::int64_t last_utime) {
   return 1e-6 * (static_cast<double>(last_utime) - static_cast<double>(first_utime));
 }
 
-std::optional<std::int64_t> missing_before(const MessageSchema& type,
-                                           std::span<const std::uint8_t> message,
-                                           messaging::SequenceGaps& channel) {
+void count_missing(const MessageSchema& type, std::span<const std::uint8_t> message,
+                   messaging::SequenceGaps& channel, std::optional<std::int64_t>& missing) {
   const auto session = leading_number("session", type, message);
   const auto sequence = leading_number("sequence", type, message);
-  if (!sequence) return std::nullopt;
-  return session ? channel.note(*session, *sequence) : channel.note(*sequence);
+  if (!sequence) return;
+  missing =
+      missing.value_or(0) + (session ? channel.note(*session, *sequence) : channel.note(*sequence));
 }
 
 }  // namespace geomap::logs

@@ -26,10 +26,9 @@ std::optional<std::int64_t> leading_number(const std::string& name,
 /// @brief In floating point, where no damaged time overflows [s].
 double seconds_between(std::int64_t first_utime, std::int64_t last_utime);
 
-/// @brief How many messages of a channel are missing before this sound one; nothing when its type
-/// has no sequence numbers.
-std::optional<std::int64_t> missing_before(const messaging::MessageSchema& type,
-                                           std::span<const std::uint8_t> message,
-                                           messaging::SequenceGaps& channel);
+/// @brief Adds to `missing` the messages of a channel that are missing before this sound one;
+/// leaves it alone when the type has no sequence numbers.
+void count_missing(const messaging::MessageSchema& type, std::span<const std::uint8_t> message,
+                   messaging::SequenceGaps& channel, std::optional<std::int64_t>& missing);
 
 }  // namespace geomap::logs

@@ -33,8 +33,7 @@ void Traffic::add(const std::string& name, std::span<const std::uint8_t> message
   if (const auto* type = type_of(message)) channel.type = type;
   std::optional<double> latency;
   if (const auto* type = sound_type_of(message)) {
-    const auto missing = missing_before(*type, message, channel.sequence);
-    if (missing) channel.missing = channel.missing.value_or(0) + *missing;
+    count_missing(*type, message, channel.sequence, channel.missing);
     latency = latency_of(*type, message, utime);
   } else {
     ++channel.undecodable;
