@@ -189,12 +189,13 @@ void map_messages(const BenchInputs& inputs, benchmark::State& state) {
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  if (argc != 1 && argc != 3) {
+  const bool is_simulated = argc == 3 && argv[1][0] != '-' && argv[2][0] != '-';
+  if (!is_simulated && benchmark::ReportUnrecognizedArguments(argc, argv)) {
     std::fprintf(stderr, "usage: keyframe_bench [SCENE.yaml TRAJECTORY.yaml] [--benchmark_...]\n");
     return 2;
   }
   const BenchInputs inputs = bench::load_bench_inputs([&](const bench::FrameVisitor& visitor) {
-    if (argc == 3) {
+    if (is_simulated) {
       bench::visit_simulation(argv[1], argv[2], visitor);
     } else {
       bench::visit_kitchen(1, visitor);
