@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The three stages as processes, in a network namespace of their own, for tests."""
+import atexit
 import collections
 import contextlib
 import os
@@ -52,7 +53,7 @@ def skip(reason):
 
 
 class Process:
-    """One program that runs until it is told to stop."""
+    """One program that runs until it is told to stop, or until the test ends, however it does."""
 
     def __init__(self, command, cwd):
         self.name = pathlib.Path(command[0]).name
@@ -64,6 +65,7 @@ class Process:
                        "LSAN_OPTIONS": f"suppressions={HERE / 'leak_suppressions.txt'}"}
         self.process = subprocess.Popen(command, stdout=self.out, stderr=self.err, cwd=cwd,
                                         env=environment)
+        atexit.register(self.process.kill)  # nothing where it has ended
 
     def is_running(self):
         return self.process.poll() is None
@@ -117,10 +119,10 @@ class System:
                        check=True, capture_output=True)
         time.sleep(0.5)
 
-    def stop_all(self):
+    def stop_all(self, names=STAGES):
         """From the front, so that each one still takes what the one before it publishes last."""
         statuses = {}
-        for name in reversed(STAGES):
+        for name in reversed(names):
             if name in self.stages:
                 statuses[name] = self.stages[name].stop()
                 time.sleep(0.5)
@@ -217,13 +219,12 @@ class Listener(threading.Thread):
 
 def write_trajectory(folder, seconds, turn=4):
     """A file for geomap-sim: a robot that turns to and fro before the kitchen."""
-    waypoints = [(-2.0, 0.3, 0, 20), (-1.9, 0.5, 12 * turn, 25)]
+    ends = ["x: -2.0, y: 0.3, yaw_deg: 0, tilt_deg: 20",
+            f"x: -1.9, y: 0.5, yaw_deg: {12 * turn}, tilt_deg: 25"]
+    waypoints = [f"  - {{t: {turn * i}, {ends[i % 2]}}}" for i in range(max(1, seconds // turn) + 1)]
     trajectory = folder / "turn.yaml"
-    lines = [f"  - {{t: {t}, x: {x}, y: {y}, yaw_deg: {yaw}, tilt_deg: {tilt}}}"
-             for t, (x, y, yaw, tilt) in ((turn * i, waypoints[i % 2])
-                                          for i in range(max(1, seconds // turn) + 1))]
-    trajectory.write_text("name: turn\ncamera_height: 1.4\ncamera_forward: 0.1\nwaypoints:\n" +
-                          "\n".join(lines) + "\n")
+    trajectory.write_text("\n".join(["name: turn", "camera_height: 1.4", "camera_forward: 0.1",
+                                     "waypoints:", *waypoints, ""]))
     return trajectory
 
 

@@ -136,8 +136,8 @@ class LiveSystem(unittest.TestCase):
         edit.keyframe = self.types.plane_set_t.decode(planes[len(planes) // 2]).utime
         publisher = live_system.Publisher()
         listener.wait_for(
-            "MAP_DELTA", lambda data: (lambda delta: delta.cause == delta.KEYFRAME_REMOVAL)(
-                self.types.map_delta_t.decode(data)),
+            "MAP_DELTA", lambda data: (self.types.map_delta_t.decode(data).cause ==
+                                       self.types.map_delta_t.KEYFRAME_REMOVAL),
             after=lambda: publisher.send("MAP_EDIT", edit.encode()))
         for data in planes[:len(planes) // 2] + planes[len(planes) // 2 + 1:]:
             publisher.send("without/PLANES", data)

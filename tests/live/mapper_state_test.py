@@ -215,8 +215,8 @@ class MapperState(unittest.TestCase):
         self.request(self.types.map_request_t.SAVE, "doubled")
         self.assertNotEqual(self.saved_hash(self.folder / "moved", "doubled"), self.hashes[-1])
         self.listener.wait_for(
-            "MAP_DELTA", lambda data: (lambda delta: delta.cause == delta.POSE_CORRECTION)(
-                self.types.map_delta_t.decode(data)),
+            "MAP_DELTA", lambda data: (self.types.map_delta_t.decode(data).cause ==
+                                       self.types.map_delta_t.POSE_CORRECTION),
             after=lambda: self.publisher.send("KEYFRAME_UPDATE", update.encode()))
         self.assertEqual(mapper.stop(), 0)
         self.assertEqual(mapper.map_hash(), self.hashes[-1])

@@ -74,6 +74,10 @@ class View:
         lines = pathlib.Path(self.process.out.name).read_text().splitlines()
         return [(float(time), int(revision), view_hash) for time, revision, view_hash in map(str.split, lines)]
 
+    def newest(self):
+        """Revision and hash of the newest state; empty while there is none."""
+        return [state[1:] for state in self.states()[-1:]]
+
 
 class TwoHosts(unittest.TestCase):
     @classmethod
@@ -100,13 +104,14 @@ class TwoHosts(unittest.TestCase):
         begin, bytes_before = time.monotonic(), self.host.sent_bytes()
         system.play(self.log)
         rate = (self.host.sent_bytes() - bytes_before) / (time.monotonic() - begin)
+        statuses = system.stop_all(("geomap-planes", "geomap-register"))  # the map is complete then
         deadline = time.monotonic() + 20
-        while here.states()[-1][1:] != there.states()[-1][1:] and time.monotonic() < deadline:
+        while here.newest() != there.newest() and time.monotonic() < deadline:
             time.sleep(0.1)
         (robot_time, *robot), (operator_time, *operator) = here.states()[-1], there.states()[-1]
         for view in (here, there):
             view.process.stop()
-        statuses = system.stop_all()
+        statuses |= system.stop_all(("geomap-mapper",))
         print(f"{self.id()}: {rate:.0f} bytes/s, equal after {operator_time - robot_time:.3f} s, "
               f"{len(there.states())} of {len(here.states())} states seen", file=sys.stderr)
         self.assertEqual(operator, robot)
@@ -166,6 +171,7 @@ class TwoHosts(unittest.TestCase):
         system.start_all({"geomap-mapper": ["--operator-url", OPERATOR_URL]})
         there = View(self.folder, OPERATOR_URL, self.host.enter)
         system.play(self.log)
+        statuses = system.stop_all(("geomap-planes", "geomap-register"))
         self.assertFalse(there.states())
         run(["ip", "link", "set", "robot", "up"])
         run(["ip", "route", "add", OPERATOR_GROUP, "dev", "robot"])
@@ -173,7 +179,7 @@ class TwoHosts(unittest.TestCase):
         while not there.states() and time.monotonic() < deadline:
             time.sleep(0.1)
         there.process.stop()
-        statuses = system.stop_all()
+        statuses |= system.stop_all(("geomap-mapper",))
         self.assertEqual(set(statuses.values()), {0})
         _, revision, view_hash = there.states()[-1]
         self.assertIn(f"view_hash {view_hash}, revision {revision}", system.stages["geomap-mapper"].output)
