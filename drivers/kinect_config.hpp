@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/camera_model.hpp"
+
+namespace geomap::drivers {
+
+/// @brief How a camera is run.
+struct KinectConfig {
+  int width = 640;         // of depth and colour [pixel]
+  int height = 480;        // [pixel]
+  int rate = 30;           // frames a second
+  bool registered = true;  // depth is put into the colour camera's view, where the device can
+  int jpeg_quality = 90;
+  double timeout = 1.0;  // without an image, after which the camera is opened anew [s]
+  double fx = 0.0;       // [pixel]; 0: fx to cy follow from the field of view
+  double fy = 0.0;       // [pixel]
+  double cx = 0.0;       // [pixel]
+  double cy = 0.0;       // [pixel]
+
+  std::vector<std::string> validate() const;
+
+  /// @brief Half the time between two frames [us].
+  std::int64_t pairing_tolerance() const { return 500'000 / rate; }
+  /// @brief The camera of the images. @param horizontal_fov, vertical_fov of the device [rad].
+  geometry::CameraModel camera(double horizontal_fov, double vertical_fov) const;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& self, Visitor&& visitor) {
+    visitor("width", self.width);
+    visitor("height", self.height);
+    visitor("rate", self.rate);
+    visitor("registered", self.registered);
+    visitor("jpeg_quality", self.jpeg_quality);
+    visitor("timeout", self.timeout);
+    visitor("fx", self.fx);
+    visitor("fy", self.fy);
+    visitor("cx", self.cx);
+    visitor("cy", self.cy);
+  }
+};
+
+}  // namespace geomap::drivers

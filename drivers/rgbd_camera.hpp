@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "geometry/camera_model.hpp"
+#include "geometry/rgbd_frame.hpp"
+
+namespace geomap::drivers {
+
+/// @brief One image as a camera delivers it: depth and colour come one by one.
+struct CameraImage {
+  std::int64_t sensor_time = 0;  // sensor's clock [us]
+  std::variant<geometry::DepthImage, geometry::ColorImage> image;
+};
+
+/// @brief What RGBD_FRAME shall say of a camera's images.
+struct CameraDescription {
+  std::string name;  // for people, with the device's address
+  geometry::CameraModel depth;
+  geometry::CameraModel color;
+};
+
+/// @brief A camera that is open; it is closed with this object.
+class RgbdCamera {
+ public:
+  virtual ~RgbdCamera() = default;
+
+  virtual const CameraDescription& description() const = 0;
+
+  /// @brief The next image; nothing when none comes within `patience`, or at the end.
+  /// @throws SourceError, which says why, when the camera is gone.
+  virtual std::optional<CameraImage> read(std::chrono::milliseconds patience) = 0;
+
+  /// @brief True after the last image of a recording.
+  virtual bool has_ended() const = 0;
+
+  /// @brief Images that were refused since it is open, for having less data than their size needs.
+  virtual std::int64_t torn() const = 0;
+};
+
+}  // namespace geomap::drivers

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""geomap-kinect with a virtual OpenNI2 camera: from the camera to the map, and what goes wrong.
+
+usage: kinect_test.py FOLDER_OF_PROGRAMS VIRTUAL_CAMERA.so [unittest arguments]
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import zlib
+
+import live_system
+
+KINECT = "geomap-kinect"
+LIBRARIES = pathlib.Path("/usr/lib") / f"{os.uname().machine}-linux-gnu"
+
+
+def make_camera(folder, driver, types):
+    """The folder of a virtual camera in a simulated kitchen; OpenNI2 finds drivers beside itself."""
+    drivers = folder / "openni2" / "OpenNI2" / "Drivers"
+    drivers.mkdir(parents=True)
+    (folder / "openni2" / "libOpenNI2.so.0").symlink_to(LIBRARIES / "libOpenNI2.so.0")
+    (drivers / "libOniFile.so.0").symlink_to(LIBRARIES / "OpenNI2/Drivers/libOniFile.so.0")
+    (drivers / "libVirtualCamera.so.0").symlink_to(driver)
+    os.environ["LD_LIBRARY_PATH"] = str(folder / "openni2")
+    os.environ["GEOMAP_VIRTUAL_CAMERA"] = str(folder)
+    with open(folder / "depth.raw", "wb") as raw:
+        for channel, data in live_system.read_log(live_system.simulate(PROGRAMS, folder)):
+            if channel == "RGBD_FRAME":
+                raw.write(zlib.decompress(bytes(types.rgbd_frame_t.decode(data).depth.data)))
+
+
+class Kinect(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.types = live_system.message_types(cls.folder / "types")
+        make_camera(cls.folder, DRIVER, cls.types)
+        cls.listener = live_system.Listener()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def setUp(self):
+        self.control("run")
+
+    def control(self, word):
+        """Tells the virtual camera what to do."""
+        new = self.folder / "control.new"
+        new.write_text(word)
+        new.rename(self.folder / "control")
+
+    def start(self, *options):
+        kinect = live_system.Process([str(PROGRAMS / KINECT), "-l", live_system.UDP, *options],
+                                     self.folder)
+        self.addCleanup(lambda: kinect.is_running() and kinect.stop())
+        return kinect
+
+    def wait_for_health(self, accept, after=lambda: None):
+        def is_accepted(data):
+            health = self.types.health_t.decode(data)
+            return health.process == KINECT and accept(health)
+        data = self.listener.wait_for("HEALTH", is_accepted, after)
+        return self.types.health_t.decode(data)
+
+    def wait_until_well(self, after=lambda: None):
+        """Until frames are published."""
+        counts = []
+
+        def is_publishing(health):
+            counts.append({c.name: c.value for c in health.counters}.get("out.RGBD_FRAME", 0))
+            return health.level == 0 and len(counts) > 1 and counts[-1] > counts[-2]
+        return self.wait_for_health(is_publishing, after)
+
+    def map_of(self, name, kinect_options, is_done):
+        """map_hash of the live stages, and that of replaying what they were sent."""
+        log = self.folder / f"{name}.lcmlog"
+        system = live_system.System(PROGRAMS, self.folder, options=["--lossless"]).start_all()
+        logger = live_system.Process(["lcm-logger", "-q", "-c", "RGBD_FRAME", "-l", live_system.UDP,
+                                      str(log)], self.folder)
+        time.sleep(0.5)
+        kinect = self.start(*kinect_options)
+        is_done(kinect)
+        self.assertEqual(kinect.stop(), 0)
+        time.sleep(1.0)
+        self.assertEqual(set(system.stop_all().values()), {0})
+        logger.stop()
+        replayed = subprocess.run(
+            [str(PROGRAMS / "geomap-replay"), str(log), "-o", str(self.folder / name)],
+            check=True, capture_output=True, text=True)
+        return (system.stages["geomap-mapper"].map_hash(),
+                re.search(r"map_hash:? (\w+)", replayed.stdout)[1], log)
+
+    def depths(self, log):
+        return [bytes(self.types.rgbd_frame_t.decode(data).depth.data)
+                for _, data in live_system.read_log(log)]
+
+    def test_the_live_map_is_that_of_a_replay_and_a_recording_gives_the_same_frames(self):
+        oni = self.folder / "camera.oni"
+        live, replayed, log = self.map_of("camera", ["--record", str(oni)],
+                                          lambda kinect: time.sleep(5.0))
+        self.assertEqual(live, replayed)
+        frames = self.depths(log)
+        self.assertGreater(len(frames), 60)
+        live, replayed, log = self.map_of("recording", ["--device", str(oni), "--lossless"],
+                                          lambda kinect: kinect.process.wait(60))
+        self.assertEqual(live, replayed)
+        recorded = self.depths(log)
+        self.assertGreaterEqual(len(recorded), len(frames))
+        self.assertLessEqual(set(frames), set(recorded))
+
+    def test_it_waits_for_a_camera_and_says_so_once(self):
+        self.control("unplug")
+        kinect = self.start()
+        health = self.wait_for_health(lambda h: h.level == self.types.health_t.FAILING)
+        self.assertIn("no devices found", health.message)
+        time.sleep(1.5)
+        self.wait_until_well(lambda: self.control("run"))
+        kinect.stop()
+        self.assertEqual(kinect.errors.count("no devices found"), 1)
+
+    def test_a_camera_that_was_unplugged_is_opened_again(self):
+        self.recovers_from("unplug", "was unplugged", "camera.lost")
+
+    def test_a_camera_that_stalls_is_opened_again(self):
+        self.recovers_from("stall", "no whole image for 1 s", "camera.lost")
+
+    def test_half_images_are_refused(self):
+        self.recovers_from("tear", "no whole image for 1 s", "images.torn")
+
+    def recovers_from(self, fault, reason, counter):
+        kinect = self.start()
+        self.wait_until_well()
+        self.wait_for_health(lambda h: h.level == self.types.health_t.FAILING,
+                             lambda: self.control(fault))
+        began = time.monotonic()
+        self.listener.wait_for("HEALTH", after=lambda: self.control("run"))
+        self.wait_until_well()
+        # Two HEALTH messages are needed to see that frames come.
+        self.assertLess(time.monotonic() - began, 3.0 + 2.0)
+        kinect.stop()
+        self.assertIn(reason, kinect.errors)
+        self.assertGreater(kinect.value(counter), 0)
+
+    def test_a_mode_that_the_camera_lacks_is_refused_with_those_it_has(self):
+        self.start("--set", "kinect.width=320", "--set", "kinect.height=240")
+        health = self.wait_for_health(lambda h: h.level == self.types.health_t.FAILING)
+        self.assertIn("no depth mode 320x240 at 30; it has 640x480 at 30", health.message)
+
+    def test_of_two_processes_the_second_waits_for_the_camera(self):
+        first = self.start()
+        self.wait_until_well()
+        second = self.start("--channel-prefix", "second/")
+        data = self.listener.wait_for(
+            "second/HEALTH", lambda data: self.types.health_t.decode(data).level != 0)
+        self.assertIn("another process has the camera", self.types.health_t.decode(data).message)
+        first.stop()
+        self.listener.wait_for("second/HEALTH",
+                               lambda data: self.types.health_t.decode(data).level == 0)
+        second.stop()
+
+    def test_the_list_names_camera_and_modes(self):
+        done = subprocess.run([str(PROGRAMS / KINECT), "--list"], check=True, capture_output=True,
+                              text=True)
+        self.assertIn("virtual://kitchen  geomap virtual camera", done.stdout)
+        self.assertIn("640x480 at 30 (depth 1 mm)", done.stdout)
+
+
+if __name__ == "__main__":
+    PROGRAMS = live_system.enter_namespace(sys.argv[1])
+    DRIVER = pathlib.Path(sys.argv[2]).resolve()
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
