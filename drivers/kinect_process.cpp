@@ -51,10 +51,8 @@ void KinectProcess::try_open() {
     return;
   }
   last_image_ = Clock::now();
-  trouble_.clear();
+  is_silent_ = true;
   live_.health().count("camera.opened");
-  live_.health().set_trouble(geomap::health_t::GOOD, "");
-  messaging::log_info("camera: " + camera_->description().name);
 }
 
 void KinectProcess::read() {
@@ -91,7 +89,16 @@ void KinectProcess::lose(const std::string& reason) {
   messaging::log_error(reason + "; trying again until it is there");
 }
 
+// To be open is not enough: a camera that hangs can be opened again and again.
+void KinectProcess::note_first_frame() {
+  is_silent_ = false;
+  trouble_.clear();
+  live_.health().set_trouble(geomap::health_t::GOOD, "");
+  messaging::log_info("frames of " + camera_->description().name);
+}
+
 void KinectProcess::publish(ImagePair pair) {
+  if (is_silent_) note_first_frame();
   geometry::RgbdFrame frame;
   frame.utime = is_recorded_ ? pair.sensor_time
                              : clock_.to_host(pair.sensor_time, messaging::host_microseconds());

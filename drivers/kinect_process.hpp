@@ -35,6 +35,7 @@ class KinectProcess {
   void try_open();
   void read();
   void lose(const std::string& reason);
+  void note_first_frame();
   void publish(ImagePair pair);
 
   KinectConfig config_;
@@ -43,7 +44,8 @@ class KinectProcess {
   messaging::LiveProcess& live_;
   std::unique_ptr<RgbdCamera> camera_;
   Clock::time_point next_try_, last_image_;
-  std::string trouble_;  // last said
+  bool is_silent_ = true;  // since it is open
+  std::string trouble_;    // last said
   FramePairing pairing_;
   SensorClock clock_;
   std::int64_t sequence_ = 0;

@@ -6,7 +6,8 @@
 namespace geomap::drivers {
 namespace {
 
-constexpr std::int64_t kWindow = 2'000'000;  // two of them are looked at [us]
+constexpr std::int64_t kWindow = 2'000'000;     // two of them are looked at [us]
+constexpr std::int64_t kLongestStep = 100'000;  // that is no jump of the sensor's clock [us]
 
 }  // namespace
 
@@ -21,8 +22,8 @@ std::int64_t SensorClock::to_host(std::int64_t sensor_time, std::int64_t arrival
   std::int64_t host = sensor_time + std::min(window_least_, previous_least_);
   if (is_started_) {
     // When the host's clock is set back, time goes on at half its pace until that has caught up.
-    const std::int64_t pace = std::max<std::int64_t>(1, (sensor_time - last_sensor_) / 2);
-    host = std::max(host, last_host_ + pace);
+    const std::int64_t elapsed = sensor_time - last_sensor_;
+    host = std::max(host, last_host_ + std::clamp<std::int64_t>(elapsed / 2, 1, kLongestStep));
   }
   is_started_ = true;
   last_sensor_ = sensor_time;

@@ -9,7 +9,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -29,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kWidth = 640, kHeight = 480, kRate = 30;
 constexpr int kPixels = kWidth * kHeight;
 constexpr const char* kUri = "virtual://kitchen";
-constexpr float kFocalLength = 525.0F;  // of geomap-sim's camera [pixel]
+constexpr float kHorizontalFov = 0.994838F, kVerticalFov = 0.750492F;  // geomap-sim's [rad]
 
 std::string folder() {
   const char* name = std::getenv("GEOMAP_VIRTUAL_CAMERA");
@@ -57,7 +56,10 @@ OniVideoMode mode_of(OniSensorType type) {
 class Stream : public oni::driver::StreamBase {
  public:
   Stream(OniSensorType type, Clock::time_point epoch)
-      : mode_(mode_of(type)), type_(type), epoch_(epoch), file_(folder() + "/depth.raw", std::ios::binary) {
+      : mode_(mode_of(type)),
+        type_(type),
+        epoch_(epoch),
+        file_(folder() + "/depth.raw", std::ios::binary) {
     file_.seekg(0, std::ios::end);
     images_ = static_cast<int>(file_.tellg() / (2 * kPixels));
   }
@@ -81,9 +83,9 @@ class Stream : public oni::driver::StreamBase {
       case ONI_STREAM_PROPERTY_VIDEO_MODE:
         return give(mode_, data, size);
       case ONI_STREAM_PROPERTY_HORIZONTAL_FOV:
-        return give(2.0F * std::atan(0.5F * kWidth / kFocalLength), data, size);
+        return give(kHorizontalFov, data, size);
       case ONI_STREAM_PROPERTY_VERTICAL_FOV:
-        return give(2.0F * std::atan(0.5F * kHeight / kFocalLength), data, size);
+        return give(kVerticalFov, data, size);
       case ONI_STREAM_PROPERTY_MAX_VALUE:
         return give(10000, data, size);
       case ONI_STREAM_PROPERTY_MIN_VALUE:
