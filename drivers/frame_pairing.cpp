@@ -12,24 +12,25 @@ constexpr std::size_t kMostWaiting = 8;  // images of one kind, should the other
 }  // namespace
 
 template <class Image>
-void FramePairing::enqueue(std::deque<Timed<Image>>& queue, std::int64_t sensor_time, Image image) {
-  queue.push_back({sensor_time, std::move(image)});
+void FramePairing::enqueue(std::deque<Timed<Image>>& queue, Timed<Image> image) {
+  queue.push_back(std::move(image));
   if (queue.size() <= kMostWaiting) return;
   queue.pop_front();
   ++unpaired_;
 }
 
-std::optional<ImagePair> FramePairing::add(CameraImage image) {
+std::optional<ImagePair> FramePairing::add(CameraImage image, std::int64_t arrival) {
   if (auto* depth = std::get_if<geometry::DepthImage>(&image.image)) {
-    enqueue(depth_, image.sensor_time, std::move(*depth));
+    enqueue(depth_, {image.sensor_time, arrival, std::move(*depth)});
   } else {
-    enqueue(color_, image.sensor_time, std::get<geometry::ColorImage>(std::move(image.image)));
+    enqueue(color_,
+            {image.sensor_time, arrival, std::get<geometry::ColorImage>(std::move(image.image))});
   }
   while (!depth_.empty() && !color_.empty()) {
     const std::int64_t ahead = depth_.front().sensor_time - color_.front().sensor_time;
     if (std::abs(ahead) <= tolerance_) {
-      ImagePair pair{depth_.front().sensor_time, std::move(depth_.front().image),
-                     std::move(color_.front().image)};
+      ImagePair pair{depth_.front().sensor_time, depth_.front().arrival,
+                     std::move(depth_.front().image), std::move(color_.front().image)};
       depth_.pop_front();
       color_.pop_front();
       return pair;
@@ -38,6 +39,12 @@ std::optional<ImagePair> FramePairing::add(CameraImage image) {
     ++unpaired_;
   }
   return std::nullopt;
+}
+
+void FramePairing::clear() {
+  unpaired_ += static_cast<std::int64_t>(depth_.size() + color_.size());
+  depth_.clear();
+  color_.clear();
 }
 
 }  // namespace geomap::drivers

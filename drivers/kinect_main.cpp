@@ -5,10 +5,33 @@
 #include "drivers/kinect_process.hpp"
 #include "drivers/openni2_camera.hpp"
 
+namespace {
+
+using namespace geomap::drivers;
+
+struct Options {
+  std::string device;
+  std::string recording;
+  bool lossless = false;
+};
+
+CameraSource source_of(const Options& options, const KinectConfig& config) {
+  CameraSource source;
+  source.is_recording = options.device.ends_with(".oni");
+  source.keeps_sensor_time = source.is_recording && options.lossless;
+  source.open = [options, config, is_recording = source.is_recording] {
+    return is_recording ? play_openni2(options.device, options.lossless, config)
+                        : open_openni2(options.device, options.recording, config);
+  };
+  return source;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace geomap;
-  messaging::LiveOptions options;
-  drivers::OpenNi2Options camera;
+  messaging::LiveOptions live_options;
+  Options options;
   bool list = false;
   return messaging::run_program(
       argc, argv,
@@ -16,9 +39,10 @@ int main(int argc, char** argv) {
        .description = "Publishes RGBD_FRAME from a Kinect-class camera or a recording of one.",
        .uses_lcm = true},
       [&](messaging::OptionParser& parser) {
-        messaging::declare_live(parser, options);
-        parser.option("--device", camera.device, "URI, see --list, or FILE.oni; empty: any camera");
-        parser.option("--record", camera.recording, "FILE.oni to write; empty: none");
+        messaging::declare_live(parser, live_options);
+        parser.option("--device", options.device,
+                      "URI, see --list, or FILE.oni; empty: any camera");
+        parser.option("--record", options.recording, "FILE.oni to write; empty: none");
         parser.flag("--list", list, "print cameras and their modes, nothing else");
       },
       [&](const messaging::CommonOptions& common) {
@@ -26,12 +50,10 @@ int main(int argc, char** argv) {
           std::printf("%s", drivers::list_openni2().c_str());
           return 0;
         }
+        options.lossless = live_options.lossless;
         const auto config = common.config.read<drivers::KinectConfig>("kinect");
-        camera.lossless = options.lossless;
-        messaging::LiveProcess live("geomap-kinect", common, options);
-        drivers::KinectProcess process(
-            config, camera.device.ends_with(".oni") && options.lossless,
-            [&] { return drivers::open_openni2(camera, config); }, live);
+        messaging::LiveProcess live("geomap-kinect", common, live_options);
+        drivers::KinectProcess process(config, source_of(options, config), live);
         return live.run([] {}, [&] { return process.summary(); });
       });
 }

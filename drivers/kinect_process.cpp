@@ -3,114 +3,115 @@
 
 #include <fmt/format.h>
 
-#include <thread>
 #include <utility>
+#include <variant>
 
-#include "drivers/frame_source.hpp"
 #include "messaging/channels.hpp"
 #include "messaging/convert_frame.hpp"
-#include "messaging/host_clock.hpp"
 #include "messaging/log.hpp"
+#include "messaging/stopwatch.hpp"
 
 namespace geomap::drivers {
 namespace {
 
 constexpr std::chrono::milliseconds kPatience{50};  // between two looks at the bus
-constexpr std::chrono::milliseconds kRetry{500};
+// Firmware is loaded within; whoever supervises the process starts it again [s].
+constexpr double kLongestCall = 15.0;
+
+CameraThreadConfig thread_config(const KinectConfig& config, bool is_recording) {
+  CameraThreadConfig result;
+  result.timeout = config.timeout;
+  result.is_recording = is_recording;
+  return result;
+}
 
 }  // namespace
 
-KinectProcess::KinectProcess(const KinectConfig& config, bool is_recorded, Open open,
+KinectProcess::KinectProcess(const KinectConfig& config, CameraSource source,
                              messaging::LiveProcess& live)
     : config_(config),
-      is_recorded_(is_recorded),
-      open_(std::move(open)),
+      source_(std::move(source)),
       live_(live),
-      next_try_(Clock::now()),
       pairing_(config.pairing_tolerance()) {
   live_.every(0.0, [this] { step(); });
 }
 
 std::string KinectProcess::summary() const { return fmt::format("frames {}\n", sequence_); }
 
+// The camera is not touched before another copy of the process has had time to object.
 void KinectProcess::step() {
-  if (camera_) {
-    read();
-  } else if (Clock::now() >= next_try_) {
-    try_open();
-  } else {
-    std::this_thread::sleep_for(kPatience);
+  if (!camera_) camera_.emplace(source_.open, thread_config(config_, source_.is_recording));
+  if (camera_->seconds_in_call() > kLongestCall) {
+    throw messaging::FatalFault(fmt::format(
+        "the camera's library has not returned for {:.0f} s; the camera may need to be plugged in "
+        "anew",
+        kLongestCall));
   }
+  if (auto event = camera_->take(kPatience)) {
+    std::visit([this](auto&& happened) { take(std::forward<decltype(happened)>(happened)); },
+               std::move(*event));
+  }
+  note_counts();
 }
 
-void KinectProcess::try_open() {
-  try {
-    camera_ = open_();
-  } catch (const SourceError& error) {
-    lose(error.what());
-    return;
-  }
-  last_image_ = Clock::now();
-  is_silent_ = true;
+void KinectProcess::take(ImageArrived arrived) {
+  auto pair = pairing_.add(std::move(arrived.image), arrived.arrival);
+  if (pair) publish(std::move(*pair));
+}
+
+void KinectProcess::take(CameraOpened opened) {
+  description_ = std::move(opened.description);
+  state_ = State::kOpen;
+  pairing_.clear();
   live_.health().count("camera.opened");
 }
 
-void KinectProcess::read() {
-  try {
-    if (auto image = camera_->read(kPatience)) {
-      last_image_ = Clock::now();
-      if (auto pair = pairing_.add(std::move(*image))) publish(std::move(*pair));
-    }
-  } catch (const SourceError& error) {
-    lose(error.what());
-    return;
-  }
-  live_.health().set("images.torn", torn_ + camera_->torn());
-  live_.health().set("images.unpaired", pairing_.unpaired());
-  live_.health().set("clock.restarts", clock_.restarts());
-  if (camera_->has_ended()) {
-    messaging::request_stop();
-  } else if (Clock::now() - last_image_ > std::chrono::duration<double>(config_.timeout)) {
-    lose(fmt::format("{}: no whole image for {} s", camera_->description().name, config_.timeout));
-  }
+// Said once for each reason, however often it is tried.
+void KinectProcess::take(const CameraLost& lost) {
+  if (source_.is_recording) throw messaging::FatalFault(lost.reason);
+  if (state_ != State::kClosed) live_.health().count("camera.lost");
+  state_ = State::kClosed;
+  live_.health().set_trouble(geomap::health_t::FAILING, lost.reason);
+  if (lost.reason == trouble_) return;
+  trouble_ = lost.reason;
+  messaging::log_error(lost.reason + "; trying again until it is there");
 }
 
-// Said once for each reason, however often it is tried.
-void KinectProcess::lose(const std::string& reason) {
-  if (camera_) {
-    torn_ += camera_->torn();
-    live_.health().count("camera.lost");
-    camera_.reset();
-  }
-  next_try_ = Clock::now() + kRetry;
-  live_.health().set_trouble(geomap::health_t::FAILING, reason);
-  if (reason == trouble_) return;
-  trouble_ = reason;
-  messaging::log_error(reason + "; trying again until it is there");
-}
+void KinectProcess::take(const RecordingEnded&) { messaging::request_stop(); }
 
 // To be open is not enough: a camera that hangs can be opened again and again.
 void KinectProcess::note_first_frame() {
-  is_silent_ = false;
+  state_ = State::kDelivers;
   trouble_.clear();
   live_.health().set_trouble(geomap::health_t::GOOD, "");
-  messaging::log_info("frames of " + camera_->description().name);
+  messaging::log_info("frames of " + description_.name);
 }
 
 void KinectProcess::publish(ImagePair pair) {
-  if (is_silent_) note_first_frame();
+  if (state_ != State::kDelivers) note_first_frame();
   geometry::RgbdFrame frame;
-  frame.utime = is_recorded_ ? pair.sensor_time
-                             : clock_.to_host(pair.sensor_time, messaging::host_microseconds());
+  frame.utime =
+      source_.keeps_sensor_time ? pair.sensor_time : clock_.to_host(pair.sensor_time, pair.arrival);
   frame.sequence = sequence_++;
   frame.sensor = "kinect";
   frame.depth = std::move(pair.depth);
   frame.color = std::move(pair.color);
-  frame.depth_camera = camera_->description().depth;
-  frame.color_camera = camera_->description().color;
+  frame.depth_camera = description_.depth;
+  frame.color_camera = description_.color;
+  const messaging::Stopwatch compressing;
+  const auto message = messaging::to_message(frame, {}, config_.jpeg_quality);
+  live_.health().time("compression", compressing.seconds());
   live_.health().note_utime(frame.utime);
-  live_.publish(messaging::channels::kRgbdFrame,
-                messaging::to_message(frame, {}, config_.jpeg_quality));
+  live_.publish(messaging::channels::kRgbdFrame, message);
+}
+
+void KinectProcess::note_counts() {
+  const CameraLosses losses = camera_->losses();
+  live_.health().set("images.torn", losses.torn);
+  live_.health().set("images.missed", losses.missed);
+  live_.health().set("images.dropped", camera_->dropped());
+  live_.health().set("images.unpaired", pairing_.unpaired());
+  live_.health().set("clock.restarts", clock_.restarts());
 }
 
 }  // namespace geomap::drivers

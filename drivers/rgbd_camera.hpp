@@ -25,6 +25,12 @@ struct CameraDescription {
   geometry::CameraModel color;
 };
 
+/// @brief Images that did not reach us.
+struct CameraLosses {
+  std::int64_t torn = 0;    // refused: less data than their size needs
+  std::int64_t missed = 0;  // numbers that were skipped, where the camera numbers its images
+};
+
 /// @brief A camera that is open; it is closed with this object.
 class RgbdCamera {
  public:
@@ -37,10 +43,10 @@ class RgbdCamera {
   virtual std::optional<CameraImage> read(std::chrono::milliseconds patience) = 0;
 
   /// @brief True after the last image of a recording.
-  virtual bool has_ended() const = 0;
+  virtual bool has_ended() const { return false; }
 
-  /// @brief Images that were refused since it is open, for having less data than their size needs.
-  virtual std::int64_t torn() const = 0;
+  /// @brief Since it is open.
+  virtual CameraLosses losses() const = 0;
 };
 
 }  // namespace geomap::drivers

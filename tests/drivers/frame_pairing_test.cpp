@@ -3,10 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace geomap::drivers {
 namespace {
 
 constexpr std::int64_t kTolerance = 16'000;
+
+// As a FramePairing that nothing but the sensor's clock matters to.
+struct Pairing : FramePairing {
+  using FramePairing::FramePairing;
+  std::optional<ImagePair> add(CameraImage image) { return FramePairing::add(std::move(image), 0); }
+};
 
 CameraImage depth(std::int64_t time, std::uint16_t value = 1) {
   return {time, geometry::DepthImage{1, 1, {value}}};
@@ -16,7 +24,7 @@ CameraImage color(std::int64_t time, std::uint8_t value = 1) {
 }
 
 TEST(FramePairing, DepthAndColourOfOneMomentArePairedInEitherOrder) {
-  FramePairing pairing(kTolerance);
+  Pairing pairing(kTolerance);
   EXPECT_FALSE(pairing.add(depth(100'000, 7)));
   const auto first = pairing.add(color(110'000, 8));
   ASSERT_TRUE(first);
@@ -29,7 +37,7 @@ TEST(FramePairing, DepthAndColourOfOneMomentArePairedInEitherOrder) {
 }
 
 TEST(FramePairing, AnImageWithoutItsPartnerIsCountedAndTheNextArePaired) {
-  FramePairing pairing(kTolerance);
+  Pairing pairing(kTolerance);
   EXPECT_FALSE(pairing.add(depth(0)));
   EXPECT_FALSE(pairing.add(color(33'000)));
   EXPECT_TRUE(pairing.add(depth(33'000)));
@@ -37,7 +45,7 @@ TEST(FramePairing, AnImageWithoutItsPartnerIsCountedAndTheNextArePaired) {
 }
 
 TEST(FramePairing, ColourThatComesThreeFramesLateIsPairedStill) {
-  FramePairing pairing(kTolerance);
+  Pairing pairing(kTolerance);
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(pairing.add(depth(i * 33'000)));
   for (int i = 0; i < 3; ++i) {
     const auto pair = pairing.add(color(i * 33'000));
@@ -48,17 +56,31 @@ TEST(FramePairing, ColourThatComesThreeFramesLateIsPairedStill) {
 }
 
 TEST(FramePairing, DepthWithoutAnyColourDoesNotPileUp) {
-  FramePairing pairing(kTolerance);
+  Pairing pairing(kTolerance);
   for (int i = 0; i < 100; ++i) EXPECT_FALSE(pairing.add(depth(i * 33'000)));
   EXPECT_EQ(pairing.unpaired(), 92);
 }
 
 TEST(FramePairing, JustWithinTheToleranceIsOneMomentJustBeyondIsNot) {
-  FramePairing pairing(kTolerance);
+  Pairing pairing(kTolerance);
   pairing.add(depth(0));
   EXPECT_TRUE(pairing.add(color(kTolerance)));
   pairing.add(depth(100'000));
   EXPECT_FALSE(pairing.add(color(100'000 + kTolerance + 1)));
+}
+
+TEST(FramePairing, APairHasTheArrivalOfItsDepth) {
+  FramePairing pairing(kTolerance);
+  pairing.add(color(100'000), 500'000);
+  EXPECT_EQ(pairing.add(depth(100'000), 530'000)->arrival, 530'000);
+}
+
+TEST(FramePairing, WhatWaitsIsGivenUpForAnotherCamera) {
+  Pairing pairing(kTolerance);
+  pairing.add(depth(100'000));
+  pairing.clear();
+  EXPECT_FALSE(pairing.add(color(100'000)));
+  EXPECT_EQ(pairing.unpaired(), 1);
 }
 
 }  // namespace

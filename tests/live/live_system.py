@@ -182,7 +182,7 @@ def read_log(path):
 
 
 class Listener(threading.Thread):
-    """Keeps the messages of the bus, by channel."""
+    """Keeps the messages of the bus, by channel; of those in fragments, when they began to come."""
 
     def __init__(self):
         super().__init__(daemon=True)
@@ -194,15 +194,17 @@ class Listener(threading.Thread):
         group = socket.inet_aton("239.255.76.67") + socket.inet_aton("127.0.0.1")
         self.socket.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, group)
         self.messages = collections.defaultdict(list)
+        self.arrivals = collections.defaultdict(list)
         self.start()
 
     def run(self):
         while True:
             packet = self.socket.recv(65536)
-            if packet[:4] != b"LC02":
-                continue
-            end = packet.index(b"\0", 8)
-            self.messages[packet[8:end].decode()].append(packet[end + 1:])
+            if packet[:4] == b"LC02":
+                end = packet.index(b"\0", 8)
+                self.messages[packet[8:end].decode()].append(packet[end + 1:])
+            elif packet[:4] == b"LC03" and packet[16:18] == b"\0\0":  # the first fragment
+                self.arrivals[packet[20:packet.index(b"\0", 20)].decode()].append(time.monotonic())
 
     def wait_for(self, channel, accept=lambda data: True, after=lambda: None, timeout=10.0):
         """The first accepted message since `after` was called."""

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An OpenNI2 driver with one camera that is not there. It serves the depth images of the file
 // `depth.raw` (640x480, 16 bits, mm) in the folder $GEOMAP_VIRTUAL_CAMERA, forwards and backwards,
-// at 30 a second, with their shading as colour. The file `control` beside it holds what the camera
-// does: run, stall, tear (half the bytes are missing), unplug.
+// at 30 a second, with their shading as colour; also at half the size and rate, depth in 0.1 mm
+// then. The file `control` beside it holds what the camera does: run, stall, stall-depth, tear
+// (half the bytes are missing), unplug, hang (a call does not return).
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -27,6 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kWidth = 640, kHeight = 480, kRate = 30;
 constexpr int kPixels = kWidth * kHeight;
+constexpr int kModes = 2;
 constexpr const char* kUri = "virtual://kitchen";
 constexpr float kHorizontalFov = 0.994838F, kVerticalFov = 0.750492F;  // geomap-sim's [rad]
 
@@ -48,15 +50,19 @@ OniStatus give(const T& value, void* data, int* size) {
   return ONI_STATUS_OK;
 }
 
-OniVideoMode mode_of(OniSensorType type) {
-  return {type == ONI_SENSOR_DEPTH ? ONI_PIXEL_FORMAT_DEPTH_1_MM : ONI_PIXEL_FORMAT_RGB888, kWidth,
-          kHeight, kRate};
+// The whole size first, then half of it.
+OniVideoMode mode_of(OniSensorType type, int index) {
+  const int divisor = index + 1;
+  const OniPixelFormat depth =
+      index == 0 ? ONI_PIXEL_FORMAT_DEPTH_1_MM : ONI_PIXEL_FORMAT_DEPTH_100_UM;
+  return {type == ONI_SENSOR_DEPTH ? depth : ONI_PIXEL_FORMAT_RGB888, kWidth / divisor,
+          kHeight / divisor, kRate / divisor};
 }
 
 class Stream : public oni::driver::StreamBase {
  public:
   Stream(OniSensorType type, Clock::time_point epoch)
-      : mode_(mode_of(type)),
+      : mode_(mode_of(type, 0)),
         type_(type),
         epoch_(epoch),
         file_(folder() + "/depth.raw", std::ios::binary) {
@@ -93,28 +99,32 @@ class Stream : public oni::driver::StreamBase {
       case ONI_STREAM_PROPERTY_STRIDE:
         return give(stride(), data, size);
       case ONI_STREAM_PROPERTY_CROPPING:
-        return give(OniCropping{FALSE, 0, 0, kWidth, kHeight}, data, size);
+        return give(OniCropping{FALSE, 0, 0, mode_.resolutionX, mode_.resolutionY}, data, size);
       case ONI_STREAM_PROPERTY_MIRRORING:
         return give<OniBool>(FALSE, data, size);
       default:
         return ONI_STATUS_NOT_SUPPORTED;
     }
   }
-  OniStatus setProperty(int id, const void*, int) override {
-    const bool is_known =
-        id == ONI_STREAM_PROPERTY_VIDEO_MODE || id == ONI_STREAM_PROPERTY_MIRRORING;
-    return is_known ? ONI_STATUS_OK : ONI_STATUS_NOT_SUPPORTED;
+  OniStatus setProperty(int id, const void* data, int size) override {
+    if (id == ONI_STREAM_PROPERTY_MIRRORING) return ONI_STATUS_OK;
+    if (id != ONI_STREAM_PROPERTY_VIDEO_MODE || size != sizeof mode_) {
+      return ONI_STATUS_NOT_SUPPORTED;
+    }
+    std::memcpy(&mode_, data, sizeof mode_);
+    return ONI_STATUS_OK;
   }
 
  private:
-  int stride() const { return kWidth * (type_ == ONI_SENSOR_DEPTH ? 2 : 3); }
+  int stride() const { return mode_.resolutionX * (type_ == ONI_SENSOR_DEPTH ? 2 : 3); }
 
   void serve() {
-    const auto period = std::chrono::microseconds(1'000'000 / kRate);
+    const auto period = std::chrono::microseconds(1'000'000 / mode_.fps);
     while (is_running_) {
       const auto index = (Clock::now() - epoch_) / period + 1;
       std::this_thread::sleep_until(epoch_ + index * period);
       if (control_is("stall") || control_is("unplug")) continue;
+      if (type_ == ONI_SENSOR_DEPTH && control_is("stall-depth")) continue;
       raise(static_cast<int>(index), static_cast<std::uint64_t>(index * period.count()));
     }
   }
@@ -127,12 +137,12 @@ class Stream : public oni::driver::StreamBase {
     frame->timestamp = timestamp;
     frame->videoMode = mode_;
     frame->sensorType = type_;
-    frame->width = kWidth;
-    frame->height = kHeight;
+    frame->width = mode_.resolutionX;
+    frame->height = mode_.resolutionY;
     frame->stride = stride();
     frame->croppingEnabled = FALSE;
     frame->cropOriginX = frame->cropOriginY = 0;
-    frame->dataSize = stride() * kHeight / (control_is("tear") ? 2 : 1);
+    frame->dataSize = stride() * mode_.resolutionY / (control_is("tear") ? 2 : 1);
     raiseNewFrame(frame);
     getServices().releaseFrame(frame);
   }
@@ -143,14 +153,19 @@ class Stream : public oni::driver::StreamBase {
     std::vector<std::uint16_t> depth(kPixels);
     file_.seekg(static_cast<std::streamoff>(image) * 2 * kPixels);
     file_.read(reinterpret_cast<char*>(depth.data()), 2 * kPixels);
-    if (type_ == ONI_SENSOR_DEPTH) {
-      std::memcpy(data, depth.data(), 2 * kPixels);
-      return;
-    }
+    const int step = kWidth / mode_.resolutionX;
+    const int unit = mode_.pixelFormat == ONI_PIXEL_FORMAT_DEPTH_100_UM ? 10 : 1;
+    auto* readings = static_cast<std::uint16_t*>(data);
     auto* rgb = static_cast<std::uint8_t*>(data);
-    for (const std::uint16_t millimetres : depth) {
-      for (int channel = 0; channel < 3; ++channel) {
-        *rgb++ = static_cast<std::uint8_t>(millimetres / 32);
+    for (int v = 0; v < kHeight; v += step) {
+      for (int u = 0; u < kWidth; u += step) {
+        const std::uint16_t millimetres = depth[static_cast<std::size_t>(v * kWidth + u)];
+        if (type_ == ONI_SENSOR_DEPTH) {
+          *readings++ = static_cast<std::uint16_t>(unit * millimetres);
+        } else {
+          std::memset(rgb, millimetres / 32, 3);
+          rgb += 3;
+        }
       }
     }
   }
@@ -200,8 +215,10 @@ class Device : public oni::driver::DeviceBase {
   int lock_;
   Clock::time_point epoch_ = Clock::now();
   OniImageRegistrationMode registration_ = ONI_IMAGE_REGISTRATION_OFF;
-  OniVideoMode depth_ = mode_of(ONI_SENSOR_DEPTH), color_ = mode_of(ONI_SENSOR_COLOR);
-  OniSensorInfo sensors_[2] = {{ONI_SENSOR_DEPTH, 1, &depth_}, {ONI_SENSOR_COLOR, 1, &color_}};
+  OniVideoMode depth_[kModes] = {mode_of(ONI_SENSOR_DEPTH, 0), mode_of(ONI_SENSOR_DEPTH, 1)};
+  OniVideoMode color_[kModes] = {mode_of(ONI_SENSOR_COLOR, 0), mode_of(ONI_SENSOR_COLOR, 1)};
+  OniSensorInfo sensors_[2] = {{ONI_SENSOR_DEPTH, kModes, depth_},
+                               {ONI_SENSOR_COLOR, kModes, color_}};
 };
 
 class Driver : public oni::driver::DriverBase {
@@ -224,6 +241,7 @@ class Driver : public oni::driver::DriverBase {
   }
 
   oni::driver::DeviceBase* deviceOpen(const char*, const char*) override {
+    while (control_is("hang")) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const int lock = open((folder() + "/lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
     if (flock(lock, LOCK_EX | LOCK_NB) == 0) return new Device(lock);
     getServices().errorLoggerAppend("another process has the camera");
