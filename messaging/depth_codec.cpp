@@ -2,7 +2,6 @@
 #include "messaging/depth_codec.hpp"
 
 #include <libdeflate.h>
-#include <zlib.h>
 
 #include <bit>
 #include <cstring>
@@ -19,6 +18,12 @@ void from_little_endian(std::span<std::uint16_t> values) {
   for (std::uint16_t& value : values) value = static_cast<std::uint16_t>(value << 8 | value >> 8);
 }
 
+// libdeflate wants an address even for no bytes.
+template <class Byte>
+Byte* address_of(std::span<Byte> bytes, std::uint8_t& nothing) {
+  return bytes.empty() ? &nothing : bytes.data();
+}
+
 // Deflate shrinks at most 1032 to 1, so a short stream cannot ask for much memory.
 bool may_inflate(std::span<const std::uint8_t> stream, std::size_t size) {
   constexpr std::size_t kLargestRatio = 1032;
@@ -27,28 +32,27 @@ bool may_inflate(std::span<const std::uint8_t> stream, std::size_t size) {
 
 // @return false for a stream that is damaged, or inflates to another size.
 bool inflate_into(std::span<const std::uint8_t> stream, std::span<std::uint8_t> bytes) {
-  // libdeflate, which knows only streams that are whole, takes a third of zlib's time for them.
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> codec(
       libdeflate_alloc_decompressor(), &libdeflate_free_decompressor);
   if (!codec) throw std::bad_alloc();
-  std::uint8_t nothing = 0;  // libdeflate wants an address even for no bytes
+  std::uint8_t nothing = 0;
   std::size_t consumed = 0, inflated = 0;
-  const libdeflate_result result = libdeflate_zlib_decompress_ex(
-      codec.get(), stream.data(), stream.size(), bytes.empty() ? &nothing : bytes.data(),
-      bytes.size(), &consumed, &inflated);
+  const libdeflate_result result =
+      libdeflate_zlib_decompress_ex(codec.get(), stream.data(), stream.size(),
+                                    address_of(bytes, nothing), bytes.size(), &consumed, &inflated);
   return result == LIBDEFLATE_SUCCESS && inflated == bytes.size() && consumed == stream.size();
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> deflate_bytes(std::span<const std::uint8_t> bytes, int level) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::vector<std::uint8_t> stream(size);
-  if (compress2(stream.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()), level) !=
-      Z_OK) {
-    throw std::invalid_argument("deflate_bytes: no such level");
-  }
-  stream.resize(size);
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> codec(
+      libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
+  if (!codec) throw std::invalid_argument("deflate_bytes: no such level");
+  std::vector<std::uint8_t> stream(libdeflate_zlib_compress_bound(codec.get(), bytes.size()));
+  std::uint8_t nothing = 0;
+  stream.resize(libdeflate_zlib_compress(codec.get(), address_of(bytes, nothing), bytes.size(),
+                                         stream.data(), stream.size()));
   return stream;
 }
 

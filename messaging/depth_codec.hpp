@@ -9,8 +9,8 @@
 
 namespace geomap::messaging {
 
-/// @brief zlib stream of any bytes. Level 1 is the default: 135 kB in 5 ms for a Kinect depth
-/// image, against 104 kB in 33 ms at level 6.
+/// @brief zlib stream of any bytes. @param level 1 (94 kB in 5 ms for a Kinect's depth image) to 12
+/// (smallest). @throws std::invalid_argument for another level.
 std::vector<std::uint8_t> deflate_bytes(std::span<const std::uint8_t> bytes, int level = 1);
 
 /// @brief The inverse, for a stream that must inflate to exactly `size` bytes; nothing for one that

@@ -2,6 +2,7 @@
 #include "messaging/depth_codec.hpp"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <random>
 
@@ -19,10 +20,24 @@ Bytes some_bytes(std::size_t size) {
   return bytes;
 }
 
+TEST(DepthCodec, ZlibReadsWhatIsDeflated) {
+  const Bytes bytes = some_bytes(100000);
+  const Bytes stream = deflate_bytes(bytes);
+  Bytes inflated(bytes.size());
+  uLongf size = inflated.size();
+  ASSERT_EQ(uncompress(inflated.data(), &size, stream.data(), stream.size()), Z_OK);
+  EXPECT_EQ(size, bytes.size());
+  EXPECT_EQ(inflated, bytes);
+}
+
+TEST(DepthCodec, ALevelThatThereIsNotIsRefused) {
+  EXPECT_THROW(deflate_bytes(some_bytes(10), 13), std::invalid_argument);
+}
+
 TEST(DepthCodec, BytesSurviveEveryLevel) {
   for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{100000}}) {
     const Bytes bytes = some_bytes(size);
-    for (const int level : {0, 1, 6, 9}) {
+    for (const int level : {0, 1, 6, 12}) {
       EXPECT_EQ(inflate_bytes(deflate_bytes(bytes, level), size), bytes);
     }
   }
