@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "drivers/frame_source.hpp"
-#include "messaging/host_clock.hpp"
 
 namespace geomap::drivers {
 namespace {
@@ -103,7 +102,7 @@ class CameraThread::State {
       note_losses(camera.losses(), std::exchange(known, camera.losses()));
       if (image) {
         silence.at(image->image.index()) = {};
-        put(ImageArrived{std::move(*image), messaging::host_microseconds()});
+        put(ImageArrived{std::move(*image), std::chrono::system_clock::now()});
       }
       check(silence, camera);
     }

@@ -24,7 +24,7 @@ struct CameraThreadConfig {
 /// @brief An image, and when it came.
 struct ImageArrived {
   CameraImage image;
-  std::int64_t arrival = 0;  // host's clock [us]
+  std::chrono::system_clock::time_point arrival;
 };
 struct CameraOpened {
   CameraDescription description;

@@ -55,7 +55,9 @@ void KinectProcess::step() {
 }
 
 void KinectProcess::take(ImageArrived arrived) {
-  auto pair = pairing_.add(std::move(arrived.image), arrived.arrival);
+  const auto arrival =
+      std::chrono::duration_cast<std::chrono::microseconds>(arrived.arrival.time_since_epoch());
+  auto pair = pairing_.add(std::move(arrived.image), arrival.count());
   if (pair) publish(std::move(*pair));
 }
 

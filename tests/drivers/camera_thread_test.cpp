@@ -64,6 +64,7 @@ std::optional<Event> next(CameraThread& thread) {
 }
 
 TEST(CameraThread, SaysThatTheCameraIsOpenAndThenHandsOutItsImagesInOrder) {
+  const auto began = std::chrono::system_clock::now();
   std::int64_t time = 0;
   CameraThread thread(open_fake([&] { return ++time % 2 ? depth(time) : color(time); }), kQuick);
   const auto first = thread.take(std::chrono::seconds(10));
@@ -75,7 +76,7 @@ TEST(CameraThread, SaysThatTheCameraIsOpenAndThenHandsOutItsImagesInOrder) {
     const auto arrived = next<ImageArrived>(thread);
     ASSERT_TRUE(arrived);
     EXPECT_GT(arrived->image.sensor_time, before);
-    EXPECT_GT(arrived->arrival, 1'600'000'000'000'000);
+    EXPECT_GE(arrived->arrival, began);
     before = arrived->image.sensor_time;
   }
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "drivers/kinect_config.hpp"
 #include "geomap/keyframe_t.hpp"
 #include "logs/synthetic_log.hpp"
 #include "logs/trajectory_file.hpp"
@@ -315,6 +316,7 @@ TEST(PipelineConfig, TheDefaultFileHoldsTheDefaultsOfTheClassesAndNothingElse) {
   testing::ConfigChecks checks;
   checks.expect_defaults<messaging::CameraConfig>("driver_camera.depth");
   checks.expect_defaults<messaging::CameraConfig>("driver_camera.color");
+  checks.expect_defaults<drivers::KinectConfig>("kinect");
   checks.expect_defaults<perception::PriorConfig>("prior");
   checks.expect_defaults<perception::KeyframeConfig>("keyframes");
   checks.expect_defaults<perception::RegistrationConfig>("registration");
