@@ -18,6 +18,16 @@ import zlib
 import live_system
 
 KINECT = "geomap-kinect"
+# The beginning of config/trajectories/sweep.yaml: what is seen tells where the camera is, as it must
+# without odometry.
+TRAJECTORY = """name: sweep
+camera_height: 1.4
+camera_forward: 0.1
+waypoints:
+  - {t: 0, x: -2.1, y: 0.3, yaw_deg: 15, pan_deg: 12, tilt_deg: 22}
+  - {t: 3.6, x: -1.95, y: 0.6, yaw_deg: 8, pan_deg: 12, tilt_deg: 28}
+  - {t: 5, x: -1.9, y: 0.7, yaw_deg: 6, pan_deg: 11, tilt_deg: 29}
+"""
 LIBRARIES = pathlib.Path("/usr/lib") / f"{os.uname().machine}-linux-gnu"
 
 
@@ -33,7 +43,9 @@ def make_camera(folder, driver, types):
     (drivers / "libVirtualCamera.so.0").symlink_to(driver)
     os.environ["LD_LIBRARY_PATH"] = str(folder / "openni2")
     os.environ["GEOMAP_VIRTUAL_CAMERA"] = str(folder)
-    log = live_system.simulate(PROGRAMS, folder)
+    trajectory = folder / "sweep.yaml"
+    trajectory.write_text(TRAJECTORY)
+    log = live_system.simulate(PROGRAMS, folder, trajectory)
     (folder / "depth.raw").write_bytes(b"".join(depth_images(log, types)))
     return log
 
@@ -123,6 +135,8 @@ class Kinect(unittest.TestCase):
             [str(PROGRAMS / "geomap-replay"), str(log), "-o", str(self.folder / name)],
             check=False, capture_output=True, text=True)
         self.assertEqual(replayed.returncode, 0, replayed.stderr)
+        keyframes = re.search(r"features of (\d+) key frames", system.stages["geomap-mapper"].output)
+        self.assertGreater(int(keyframes[1]), 3)
         return (system.stages["geomap-mapper"].map_hash(),
                 re.search(r"map_hash:? (\w+)", replayed.stdout)[1], log)
 
