@@ -104,6 +104,7 @@ class CameraThread::State {
         silence.at(image->image.index()) = {};
         put(ImageArrived{std::move(*image), std::chrono::system_clock::now()});
       }
+      if (const auto attitude = camera.attitude()) put(AttitudeMeasured{*attitude});
       check(silence, camera);
     }
     if (camera.has_ended()) put(RecordingEnded{});

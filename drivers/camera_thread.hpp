@@ -29,11 +29,15 @@ struct ImageArrived {
 struct CameraOpened {
   CameraDescription description;
 };
+struct AttitudeMeasured {
+  CameraAttitude attitude;
+};
 struct CameraLost {
   std::string reason;
 };
 struct RecordingEnded {};
-using CameraEvent = std::variant<ImageArrived, CameraOpened, CameraLost, RecordingEnded>;
+using CameraEvent =
+    std::variant<ImageArrived, CameraOpened, AttitudeMeasured, CameraLost, RecordingEnded>;
 
 /// @brief A camera in a thread of its own, which opens it, reads it, and opens it again when it is
 /// gone or silent. So whoever takes the images may be late now and then, and can tell when a call

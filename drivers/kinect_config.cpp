@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "drivers/kinect_config.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace geomap::drivers {
@@ -11,6 +13,10 @@ std::vector<std::string> KinectConfig::validate() const {
   if (rate < 1 || rate > 1000) messages.push_back("rate must be from 1 to 1000");
   if (jpeg_quality < 1 || jpeg_quality > 100) {
     messages.push_back("jpeg_quality must be from 1 to 100");
+  }
+  constexpr std::array kLeds = {"off", "green", "red", "yellow", "blink"};
+  if (std::find(kLeds.begin(), kLeds.end(), led) == kLeds.end()) {
+    messages.push_back("led must be off, green, red, yellow or blink");
   }
   if (!(timeout > 0.0)) messages.push_back("timeout must be positive");
   const bool from_fov = fx == 0.0 && fy == 0.0;

@@ -16,11 +16,12 @@ struct KinectConfig {
   int rate = 30;           // frames a second
   bool registered = true;  // depth is put into the colour camera's view, where the device can
   int jpeg_quality = 90;
-  double timeout = 1.0;  // without an image, after which the camera is opened anew [s]
-  double fx = 0.0;       // [pixel]; 0: fx to cy follow from the field of view
-  double fy = 0.0;       // [pixel]
-  double cx = 0.0;       // [pixel]
-  double cy = 0.0;       // [pixel]
+  std::string led = "green";  // of a Kinect while it is used: off, green, red, yellow or blink
+  double timeout = 1.0;       // without an image, after which the camera is opened anew [s]
+  double fx = 0.0;            // [pixel]; 0: fx to cy follow from the field of view
+  double fy = 0.0;            // [pixel]
+  double cx = 0.0;            // [pixel]
+  double cy = 0.0;            // [pixel]
 
   std::vector<std::string> validate() const;
 
@@ -36,6 +37,7 @@ struct KinectConfig {
     visitor("rate", self.rate);
     visitor("registered", self.registered);
     visitor("jpeg_quality", self.jpeg_quality);
+    visitor("led", self.led);
     visitor("timeout", self.timeout);
     visitor("fx", self.fx);
     visitor("fy", self.fy);

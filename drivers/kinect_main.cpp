@@ -1,37 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // geomap-kinect: frames of a Kinect-class camera.
+#include <cmath>
 #include <cstdio>
+#include <optional>
 
+#include "drivers/camera_drivers.hpp"
 #include "drivers/kinect_process.hpp"
-#include "drivers/openni2_camera.hpp"
-
-namespace {
-
-using namespace geomap::drivers;
-
-struct Options {
-  std::string device;
-  std::string recording;
-  bool lossless = false;
-};
-
-CameraSource source_of(const Options& options, const KinectConfig& config) {
-  CameraSource source;
-  source.is_recording = options.device.ends_with(".oni");
-  source.keeps_sensor_time = source.is_recording && options.lossless;
-  source.open = [options, config, is_recording = source.is_recording] {
-    return is_recording ? play_openni2(options.device, options.lossless, config)
-                        : open_openni2(options.device, options.recording, config);
-  };
-  return source;
-}
-
-}  // namespace
+#include "geometry/angles.hpp"
 
 int main(int argc, char** argv) {
   using namespace geomap;
   messaging::LiveOptions live_options;
-  Options options;
+  drivers::CameraOptions camera;
+  std::optional<double> tilt_deg;
   bool list = false;
   return messaging::run_program(
       argc, argv,
@@ -40,20 +21,30 @@ int main(int argc, char** argv) {
        .uses_lcm = true},
       [&](messaging::OptionParser& parser) {
         messaging::declare_live(parser, live_options);
-        parser.option("--device", options.device,
-                      "URI, see --list, or FILE.oni; empty: any camera");
-        parser.option("--record", options.recording, "FILE.oni to write; empty: none");
+        parser.choice("--driver", camera.driver, {"openni2", "freenect"},
+                      "openni2: PrimeSense, Xtion; freenect: Kinect v1; else both are tried");
+        parser.option("--device", camera.device, "see --list, or FILE.oni; empty: any camera");
+        parser.option("--record", camera.recording, "FILE.oni to write; empty: none");
+        parser.option("--tilt", tilt_deg, "of a Kinect's motor, -27 to 27 degrees upwards");
         parser.flag("--list", list, "print cameras and their modes, nothing else");
       },
       [&](const messaging::CommonOptions& common) {
         if (list) {
-          std::printf("%s", drivers::list_openni2().c_str());
+          std::printf("%s", drivers::list_cameras().c_str());
           return 0;
         }
-        options.lossless = live_options.lossless;
+        if (tilt_deg && !(std::abs(*tilt_deg) <= 27.0)) {
+          throw messaging::ConfigError("--tilt must be from -27 to 27 degrees");
+        }
+        if (tilt_deg) camera.tilt = geometry::radians(*tilt_deg);
+        camera.lossless = live_options.lossless;
         const auto config = common.config.read<drivers::KinectConfig>("kinect");
+        const drivers::CameraSource source{
+            .open = drivers::camera_opener(camera, config),
+            .is_recording = camera.is_playback(),
+            .keeps_sensor_time = camera.is_playback() && camera.lossless};
         messaging::LiveProcess live("geomap-kinect", common, live_options);
-        drivers::KinectProcess process(config, source_of(options, config), live);
+        drivers::KinectProcess process(config, source, live);
         return live.run([] {}, [&] { return process.summary(); });
       });
 }

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
+#include "geomap/camera_attitude_t.hpp"
 #include "messaging/channels.hpp"
 #include "messaging/convert_frame.hpp"
 #include "messaging/log.hpp"
@@ -68,6 +70,14 @@ void KinectProcess::take(CameraOpened opened) {
   live_.health().count("camera.opened");
 }
 
+void KinectProcess::take(const AttitudeMeasured& measured) {
+  geomap::camera_attitude_t message;
+  message.utime = last_utime_;
+  std::copy_n(measured.attitude.acceleration.data(), 3, message.acceleration);
+  message.tilt = measured.attitude.tilt;
+  live_.publish(messaging::channels::kCameraAttitude, message);
+}
+
 // Said once for each reason, however often it is tried.
 void KinectProcess::take(const CameraLost& lost) {
   if (source_.is_recording) throw messaging::FatalFault(lost.reason);
@@ -104,6 +114,7 @@ void KinectProcess::publish(ImagePair pair) {
   const auto message = messaging::to_message(frame, {}, config_.jpeg_quality);
   live_.health().time("compression", compressing.seconds());
   live_.health().note_utime(frame.utime);
+  last_utime_ = frame.utime;
   live_.publish(messaging::channels::kRgbdFrame, message);
 }
 

@@ -36,6 +36,7 @@ class KinectProcess {
   void step();
   void take(ImageArrived arrived);
   void take(CameraOpened opened);
+  void take(const AttitudeMeasured& measured);
   void take(const CameraLost& lost);
   void take(const RecordingEnded&);
   void note_first_frame();
@@ -52,6 +53,7 @@ class KinectProcess {
   FramePairing pairing_;
   SensorClock clock_;
   std::int64_t sequence_ = 0;
+  std::int64_t last_utime_ = 0;  // of a frame [us]
 };
 
 }  // namespace geomap::drivers

@@ -179,7 +179,7 @@ std::string list_openni2() {
     }
     device.close();
   }
-  return text.empty() ? "no camera\n" : text;
+  return text;
 }
 
 }  // namespace geomap::drivers

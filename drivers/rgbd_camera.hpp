@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -25,6 +26,14 @@ struct CameraDescription {
   geometry::CameraModel color;
 };
 
+/// @brief How a camera is held.
+struct CameraAttitude {
+  /// That the camera feels, in its optical frame (x right, y down, z forward) [m/s²]: at rest it
+  /// points upwards, and is 9.8 long.
+  Eigen::Vector3d acceleration;
+  double tilt = 0.0;  // of the motor that holds it, upwards [rad]
+};
+
 /// @brief Images that did not reach us.
 struct CameraLosses {
   std::int64_t torn = 0;    // refused: less data than their size needs
@@ -41,6 +50,9 @@ class RgbdCamera {
   /// @brief The next image; nothing when none comes within `patience`, or at the end.
   /// @throws SourceError, which says why, when the camera is gone.
   virtual std::optional<CameraImage> read(std::chrono::milliseconds patience) = 0;
+
+  /// @brief Where the camera can tell and it is time to ask again, about once a second.
+  virtual std::optional<CameraAttitude> attitude() { return std::nullopt; }
 
   /// @brief True after the last image of a recording.
   virtual bool has_ended() const { return false; }

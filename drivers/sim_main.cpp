@@ -16,7 +16,7 @@ namespace {
 using namespace geomap;
 
 struct Options {
-  std::string scene, trajectory, log, noise = "0";
+  std::string scene, trajectory, log, fakenect, noise = "0";
   drivers::OdometryDriftConfig drift;
   double rate = 30.0;
 };
@@ -26,6 +26,8 @@ void declare(messaging::OptionParser& parser, Options& options) {
   parser.required("--trajectory", options.trajectory, "YAML file, see config/trajectories");
   parser.option("--log", options.log,
                 "log to write, and OUT.truth.yaml beside OUT.lcmlog; empty: publish live");
+  parser.option("--fakenect", options.fakenect,
+                "folder to write, which fakenect plays in place of a Kinect");
   parser.option("--noise", options.noise,
                 "of depth: standard deviation [m], or kinect: noise, steps, shadows, distortion");
   parser.option("--drift-m-per-m", options.drift.drift_m_per_m, "of the odometry on POSE");
@@ -54,6 +56,9 @@ drivers::SimulationConfig config_of(const Options& options) {
 }
 
 int run(const Options& options, const messaging::CommonOptions& common) {
+  if (!options.log.empty() && !options.fakenect.empty()) {
+    throw messaging::ConfigError("--log and --fakenect are written one at a time");
+  }
   const drivers::SimulationConfig config = config_of(options);
   const drivers::Scene scene = drivers::read_scene(options.scene);
   const drivers::CameraTrajectory trajectory(drivers::read_robot_trajectory(options.trajectory));
@@ -65,7 +70,9 @@ int run(const Options& options, const messaging::CommonOptions& common) {
       progress.update(static_cast<std::int64_t>(frame));
       return !messaging::stop_requested();
     };
-    if (options.log.empty()) {
+    if (!options.fakenect.empty()) {
+      summary = process.record_kinect(options.fakenect, proceed);
+    } else if (options.log.empty()) {
       lcm::LCM lcm(common.lcm_url);
       if (!lcm.good()) throw std::runtime_error("cannot open LCM at " + common.lcm_url);
       summary = process.publish(lcm, common.channel_prefix, proceed);
@@ -74,7 +81,8 @@ int run(const Options& options, const messaging::CommonOptions& common) {
       if (summary.stopped) throw std::runtime_error("stopped; no log was written");
     }
   }
-  std::printf("%s: %s\n", options.log.empty() ? "live" : options.log.c_str(),
+  const std::string& written = options.fakenect.empty() ? options.log : options.fakenect;
+  std::printf("%s: %s\n", written.empty() ? "live" : written.c_str(),
               drivers::to_string(summary).c_str());
   return 0;
 }

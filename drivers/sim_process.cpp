@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "drivers/fakenect_folder.hpp"
 #include "drivers/truth_file.hpp"
 #include "messaging/log_writer.hpp"
 #include "messaging/part_file.hpp"
@@ -79,6 +80,28 @@ SimulationSummary SimProcess::record(const std::filesystem::path& log, const Pro
   part.keep();
   truth_part.keep();
   summary.wall = seconds_since(start);
+  return summary;
+}
+
+SimulationSummary SimProcess::record_kinect(const std::filesystem::path& folder,
+                                            const Proceed& proceed) {
+  const Clock::time_point start = Clock::now();
+  FakenectFolder recording(folder);
+  SimulationSummary summary;
+  while (source_.position() < source_.size()) {
+    if (!proceed(source_.position())) {
+      summary.stopped = true;
+      break;
+    }
+    const RobotPose pose = source_.pose();
+    const Eigen::Isometry3d T_world_camera = pose.T_world_body * pose.T_body_camera;
+    const std::optional<SourceFrame> frame = source_.next();
+    recording.add(frame.value().frame, frame->frame.utime,
+                  T_world_camera.linear().transpose() * Eigen::Vector3d::UnitZ());
+    ++summary.frames;
+  }
+  summary.wall = seconds_since(start);
+  summary.simulated = static_cast<double>(summary.frames) / rate_;
   return summary;
 }
 

@@ -45,6 +45,10 @@ class SimProcess {
   /// Both appear when they are whole, or not at all.
   SimulationSummary record(const std::filesystem::path& log, const Proceed& proceed);
 
+  /// @brief Writes what a Kinect in the camera's place would send, for fakenect.
+  /// @throws as FakenectFolder.
+  SimulationSummary record_kinect(const std::filesystem::path& folder, const Proceed& proceed);
+
   /// @brief Publishes each frame when its time has come, and leaves out those that it would be late
   /// for by more than one.
   SimulationSummary publish(lcm::LCM& lcm, const std::string& channel_prefix,

@@ -4,9 +4,10 @@
 namespace geomap::messaging::channels {
 
 // Input: cameras and robot.
-inline constexpr const char* kRgbdFrame = "RGBD_FRAME";      // geomap.rgbd_frame_t
-inline constexpr const char* kOpenniFrame = "OPENNI_FRAME";  // bot_core.images_t
-inline constexpr const char* kKinectFrame = "KINECT_FRAME";  // kinect.frame_msg_t
+inline constexpr const char* kRgbdFrame = "RGBD_FRAME";            // geomap.rgbd_frame_t
+inline constexpr const char* kOpenniFrame = "OPENNI_FRAME";        // bot_core.images_t
+inline constexpr const char* kKinectFrame = "KINECT_FRAME";        // kinect.frame_msg_t
+inline constexpr const char* kCameraAttitude = "CAMERA_ATTITUDE";  // geomap.camera_attitude_t
 inline constexpr const char* kPose = "POSE";  // bot_core.pose_t: T_odom_body or T_world_body
 inline constexpr const char* kCameraToBody =
     "CAMERA_TO_BODY";  // bot_core.rigid_transform_t: T_body_camera

@@ -4,37 +4,23 @@
 usage: kinect_test.py FOLDER_OF_PROGRAMS VIRTUAL_CAMERA.so [unittest arguments]
 """
 import array
-import hashlib
 import os
 import pathlib
-import re
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
-import zlib
 
+import live_camera
 import live_system
 
-KINECT = "geomap-kinect"
-# The beginning of config/trajectories/sweep.yaml: what is seen tells where the camera is, as it must
-# without odometry.
-TRAJECTORY = """name: sweep
-camera_height: 1.4
-camera_forward: 0.1
-waypoints:
-  - {t: 0, x: -2.1, y: 0.3, yaw_deg: 15, pan_deg: 12, tilt_deg: 22}
-  - {t: 3.6, x: -1.95, y: 0.6, yaw_deg: 8, pan_deg: 12, tilt_deg: 28}
-  - {t: 5, x: -1.9, y: 0.7, yaw_deg: 6, pan_deg: 11, tilt_deg: 29}
-"""
 LIBRARIES = pathlib.Path("/usr/lib") / f"{os.uname().machine}-linux-gnu"
 
 
 def make_camera(folder, driver, types):
     """The folder of a virtual camera in a simulated kitchen; OpenNI2 finds drivers beside itself.
 
-    Returns the log of the simulation.
+    Returns the simulated depth images.
     """
     drivers = folder / "openni2" / "OpenNI2" / "Drivers"
     drivers.mkdir(parents=True)
@@ -45,22 +31,9 @@ def make_camera(folder, driver, types):
     os.environ["GEOMAP_VIRTUAL_CAMERA"] = str(folder)
     # OpenNI2's drivers lose memory and are unloaded: a sanitizer knows no name to suppress it by.
     os.environ["ASAN_OPTIONS"] = "detect_leaks=0"
-    trajectory = folder / "sweep.yaml"
-    trajectory.write_text(TRAJECTORY)
-    log = live_system.simulate(PROGRAMS, folder, trajectory)
-    (folder / "depth.raw").write_bytes(b"".join(depth_images(log, types)))
-    return log
-
-
-def depth_images(log, types):
-    return [zlib.decompress(bytes(types.rgbd_frame_t.decode(data).depth.data))
-            for channel, data in live_system.read_log(log) if channel == "RGBD_FRAME"]
-
-
-def digests(images):
-    """Of all but the last 32 pixels, of which OpenNI2's recorder gets some wrong: where an image ends
-    within a run of equal values, it writes the run after the pixel that follows it."""
-    return [hashlib.sha256(image[:-64]).hexdigest() for image in images]
+    depths = live_camera.simulated_depth(PROGRAMS, folder, types)
+    (folder / "depth.raw").write_bytes(b"".join(depths))
+    return depths
 
 
 def halved(image):
@@ -69,18 +42,11 @@ def halved(image):
     return b"".join(pixels[row * 640:(row + 1) * 640:2].tobytes() for row in range(0, 480, 2))
 
 
-class Kinect(unittest.TestCase):
+class Kinect(live_camera.CameraTest):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.temporary.name)
-        cls.types = live_system.message_types(cls.folder / "types")
-        cls.simulated = depth_images(make_camera(cls.folder, DRIVER, cls.types), cls.types)
-        cls.listener = live_system.Listener()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
+        super().setUpClass()
+        cls.simulated = make_camera(cls.folder, DRIVER, cls.types)
 
     def setUp(self):
         self.control("run")
@@ -91,60 +57,6 @@ class Kinect(unittest.TestCase):
         new.write_text(word)
         new.rename(self.folder / "control")
 
-    def start(self, *options):
-        kinect = live_system.Process([str(PROGRAMS / KINECT), "-l", live_system.UDP, *options],
-                                     self.folder)
-        self.addCleanup(lambda: kinect.is_running() and kinect.stop())
-        return kinect
-
-    def wait_for_health(self, accept, after=lambda: None):
-        def is_accepted(data):
-            health = self.types.health_t.decode(data)
-            return health.process == KINECT and accept(health)
-        data = self.listener.wait_for("HEALTH", is_accepted, after)
-        return self.types.health_t.decode(data)
-
-    def wait_until_well(self, after=lambda: None):
-        """Until frames are published."""
-        counts = []
-
-        def is_publishing(health):
-            counts.append({c.name: c.value for c in health.counters}.get("out.RGBD_FRAME", 0))
-            return health.level == 0 and len(counts) > 1 and counts[-1] > counts[-2]
-        return self.wait_for_health(is_publishing, after)
-
-    def wait_for_frame(self):
-        seen, deadline = len(self.listener.arrivals["RGBD_FRAME"]), time.monotonic() + 10.0
-        while len(self.listener.arrivals["RGBD_FRAME"]) == seen:
-            self.assertLess(time.monotonic(), deadline, "no RGBD_FRAME")
-            time.sleep(0.005)
-        return self.listener.arrivals["RGBD_FRAME"][seen]
-
-    def map_of(self, name, kinect_options, is_done):
-        """map_hash of the live stages, and that of replaying what they were sent."""
-        log = self.folder / f"{name}.lcmlog"
-        system = live_system.System(PROGRAMS, self.folder, options=["--lossless"]).start_all()
-        logger = live_system.Process(["lcm-logger", f"--lcm-url={live_system.UDP}", "-c", "RGBD_FRAME",
-                                      str(log)], self.folder)
-        time.sleep(0.5)
-        kinect = self.start(*kinect_options)
-        is_done(kinect)
-        self.assertEqual(kinect.stop(), 0)
-        time.sleep(1.0)
-        self.assertEqual(set(system.stop_all().values()), {0})
-        logger.stop()
-        replayed = subprocess.run(
-            [str(PROGRAMS / "geomap-replay"), str(log), "-o", str(self.folder / name)],
-            check=False, capture_output=True, text=True)
-        self.assertEqual(replayed.returncode, 0, replayed.stderr)
-        keyframes = re.search(r"features of (\d+) key frames", system.stages["geomap-mapper"].output)
-        self.assertGreater(int(keyframes[1]), 3)
-        return (system.stages["geomap-mapper"].map_hash(),
-                re.search(r"map_hash:? (\w+)", replayed.stdout)[1], log)
-
-    def published(self, log):
-        return digests(depth_images(log, self.types))
-
     def test_the_live_map_is_that_of_a_replay_and_a_recording_gives_the_same_frames(self):
         oni = self.folder / "camera.oni"
         live, replayed, log = self.map_of("camera", ["--record", str(oni)],
@@ -152,7 +64,7 @@ class Kinect(unittest.TestCase):
         self.assertEqual(live, replayed)
         frames = self.published(log)
         self.assertGreater(len(frames), 60)
-        self.assertLessEqual(set(frames), set(digests(self.simulated)))
+        self.assertLessEqual(set(frames), set(live_camera.digests(self.simulated)))
         recording = ["--device", str(oni), "--lossless"]
         live, replayed, log = self.map_of("recording", recording,
                                           lambda kinect: kinect.process.wait(60))
@@ -192,7 +104,7 @@ class Kinect(unittest.TestCase):
         logger.stop()
         frames = self.published(log)
         self.assertGreater(len(frames), 5)
-        self.assertLessEqual(set(frames), set(digests(map(halved, self.simulated))))
+        self.assertLessEqual(set(frames), set(live_camera.digests(map(halved, self.simulated))))
 
     def test_it_waits_for_a_camera_and_says_so_once(self):
         self.control("unplug")
@@ -253,7 +165,7 @@ class Kinect(unittest.TestCase):
         second.stop()
 
     def test_the_list_names_camera_and_modes(self):
-        done = subprocess.run([str(PROGRAMS / KINECT), "--list"], check=True, capture_output=True,
+        done = subprocess.run([str(PROGRAMS / live_camera.KINECT), "--list"], check=True, capture_output=True,
                               text=True)
         self.assertIn("virtual://kitchen  geomap virtual camera", done.stdout)
         self.assertIn("640x480 at 30 (depth 1 mm)", done.stdout)
@@ -261,5 +173,6 @@ class Kinect(unittest.TestCase):
 
 if __name__ == "__main__":
     PROGRAMS = live_system.enter_namespace(sys.argv[1])
+    live_camera.CameraTest.programs = PROGRAMS
     DRIVER = pathlib.Path(sys.argv[2]).resolve()
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -230,10 +230,10 @@ def write_trajectory(folder, seconds, turn=4):
     return trajectory
 
 
-def simulate(programs, folder, trajectory=None):
-    """A short log of a robot before the kitchen; without a trajectory it turns to and fro."""
-    log = folder / "kitchen.lcmlog"
+def simulate(programs, folder):
+    """A short log of a robot that turns before the kitchen."""
+    log = folder / "turn.lcmlog"
     subprocess.run([str(programs / "geomap-sim"), "--scene", str(SOURCE / "config/scenes/kitchen.yaml"),
-                    "--trajectory", str(trajectory or write_trajectory(folder, 4)), "--noise", "kinect",
+                    "--trajectory", str(write_trajectory(folder, 4)), "--noise", "kinect",
                     "--drift-m-per-m", "0.02", "--log", str(log)], check=True, capture_output=True)
     return log

@@ -9,6 +9,7 @@
 #include "bot_core/pose_t.hpp"
 #include "bot_core/rigid_transform_t.hpp"
 #include "geomap/absorbed_feature_t.hpp"
+#include "geomap/camera_attitude_t.hpp"
 #include "geomap/camera_t.hpp"
 #include "geomap/counter_t.hpp"
 #include "geomap/feature_state_t.hpp"
@@ -42,14 +43,13 @@
 namespace geomap::testing {
 
 /// @brief Every type of lcmtypes/.
-using AllTypes =
-    ::testing::Types<bot_core::image_metadata_t, bot_core::image_t, bot_core::images_t,
-                     bot_core::pose_t, bot_core::rigid_transform_t, kinect::depth_msg_t,
-                     kinect::image_msg_t, kinect::frame_msg_t, absorbed_feature_t, camera_t,
-                     counter_t, feature_state_t, health_t, keyframe_t, keyframe_update_t,
-                     map_delta_t, map_edit_reply_t, map_edit_t, map_event_t, map_feature_t,
-                     map_request_t, map_state_t, map_t, observation_id_t, plane_frame_t,
-                     plane_set_t, plane_t, point_map_update_t, polygon_part_t, polygon_t,
-                     pose_correction_t, rgbd_frame_t, ring_t, stage_latency_t, transform_t>;
+using AllTypes = ::testing::Types<
+    bot_core::image_metadata_t, bot_core::image_t, bot_core::images_t, bot_core::pose_t,
+    bot_core::rigid_transform_t, kinect::depth_msg_t, kinect::image_msg_t, kinect::frame_msg_t,
+    absorbed_feature_t, camera_attitude_t, camera_t, counter_t, feature_state_t, health_t,
+    keyframe_t, keyframe_update_t, map_delta_t, map_edit_reply_t, map_edit_t, map_event_t,
+    map_feature_t, map_request_t, map_state_t, map_t, observation_id_t, plane_frame_t, plane_set_t,
+    plane_t, point_map_update_t, polygon_part_t, polygon_t, pose_correction_t, rgbd_frame_t, ring_t,
+    stage_latency_t, transform_t>;
 
 }  // namespace geomap::testing

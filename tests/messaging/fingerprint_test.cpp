@@ -29,6 +29,7 @@ TEST(Fingerprint, OfOtherPeoplesTypesIsWhatTheyPublish) {
 TEST(Fingerprint, OfOurTypesDoesNotChangeUnnoticed) {
   const std::map<std::string, std::uint64_t> pinned = {
       {"geomap.absorbed_feature_t", 0x453fe26f97ae2345},
+      {"geomap.camera_attitude_t", 0x8d9b0fee30eeb9cc},
       {"geomap.camera_t", 0x0d804340371ff466},
       {"geomap.counter_t", 0x85bfc43c0b3c07d0},
       {"geomap.feature_state_t", 0xf29c3cde99470648},
