@@ -86,7 +86,7 @@ struct Method {
 // The map holds the target frame; what is timed is all that a key frame costs.
 Outcome run_ours(const RegistrationBenchSettings& settings, const PosedFrame& target,
                  const PosedFrame& source, const Eigen::Isometry3d& guess,
-                 const perception::DepthCorrection& correction) {
+                 const geometry::DepthCorrection& correction) {
   using namespace perception;
   const IcpRegistration registration(settings.tracker.registration.icp);
   PointMap map(settings.tracker.point_map);
@@ -116,7 +116,7 @@ Outcome run_ours(const RegistrationBenchSettings& settings, const PosedFrame& ta
 }
 
 // What the tracker learns of the camera on its own, from the frames alone.
-perception::DepthCorrection learnt_correction(const RegistrationBenchSettings& settings) {
+geometry::DepthCorrection learnt_correction(const RegistrationBenchSettings& settings) {
   perception::Tracker tracker(settings.tracker);
   for (const PosedFrame& posed : load_posed_kitchen(1)) {
     tracker.track(posed.frame.utime, [&] { return &posed.frame; });
@@ -180,7 +180,7 @@ void bench_pairs(const RegistrationBenchSettings& settings) {
                                  {"PCL GICP", {"prepare", "align", "", ""}},
                                  {"PCL point to plane", {"prepare", "align", "", ""}},
                                  {"PCL point to point", {"prepare", "align", "", ""}}};
-  const perception::DepthCorrection correction = learnt_correction(settings);
+  const geometry::DepthCorrection correction = learnt_correction(settings);
   for (int seed = 1; seed <= settings.seeds; ++seed) {
     for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
       const PosedFrame &target = frames[i], &source = frames[i + 1];

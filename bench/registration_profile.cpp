@@ -88,7 +88,7 @@ class ProfiledMapping {
   struct Kept {
     Eigen::Isometry3d T_world_camera;
     SurfaceImage surfaces;
-    DepthCorrection correction;
+    geometry::DepthCorrection correction;
     DepthCorrectionEstimator::View view() const { return {surfaces, T_world_camera, correction}; }
   };
   using Times = std::array<double, kStageNames.size()>;
@@ -130,9 +130,9 @@ class ProfiledMapping {
       estimator_.add(kept_[0].view(), kept_[before].view());
     }
     if (keyframes_ < 3 || !config_.depth_correction.enabled) return;
-    const DepthCorrection estimate = estimator_.estimate();
-    if (DepthCorrection::largest_difference(estimate, map_.depth_correction(),
-                                            kept_[0].surfaces.camera()) <
+    const geometry::DepthCorrection estimate = estimator_.estimate();
+    if (geometry::DepthCorrection::largest_difference(estimate, map_.depth_correction(),
+                                                      kept_[0].surfaces.camera()) <
         config_.depth_correction.least_change) {
       return;
     }

@@ -16,7 +16,7 @@ constexpr double kLeastCosine = 0.87;  // between the normals of a pair: 30 degr
 constexpr double kGate = 0.08;         // distance along the normal of a pair [m]
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-constexpr int kTerms = DepthCorrection::kTerms;
+constexpr int kTerms = geometry::DepthCorrection::kTerms;
 
 // Normal equations over (relative pose, coefficients).
 struct PairSums {
@@ -24,10 +24,11 @@ struct PairSums {
   Eigen::Matrix<double, 6, kTerms> cross = Eigen::Matrix<double, 6, kTerms>::Zero();
   Eigen::Matrix<double, kTerms, kTerms> terms = Eigen::Matrix<double, kTerms, kTerms>::Zero();
   Vector6 pose_vector = Vector6::Zero();
-  DepthCorrection::Terms terms_vector = DepthCorrection::Terms::Zero();
+  geometry::DepthCorrection::Terms terms_vector = geometry::DepthCorrection::Terms::Zero();
   int count = 0;
 
-  void add(double weight, const Vector6& j, const DepthCorrection::Terms& k, double residual) {
+  void add(double weight, const Vector6& j, const geometry::DepthCorrection::Terms& k,
+           double residual) {
     pose.noalias() += weight * j * j.transpose();
     cross.noalias() += weight * j * k.transpose();
     terms.noalias() += weight * k * k.transpose();
@@ -37,8 +38,8 @@ struct PairSums {
   }
 };
 
-DepthCorrection::Terms terms_at(const Eigen::Vector3d& p) {
-  return DepthCorrection::terms(p.x() / p.z(), p.y() / p.z());
+geometry::DepthCorrection::Terms terms_at(const Eigen::Vector3d& p) {
+  return geometry::DepthCorrection::terms(p.x() / p.z(), p.y() / p.z());
 }
 
 }  // namespace
@@ -98,13 +99,13 @@ int DepthCorrectionEstimator::add(const View& view_a, const View& view_b) {
   return sums.count;
 }
 
-DepthCorrection DepthCorrectionEstimator::estimate() const {
+geometry::DepthCorrection DepthCorrectionEstimator::estimate() const {
   Terms prior = Terms::Constant(1.0 / (config_.sigma * config_.sigma));
-  prior.head<DepthCorrection::kLinearTerms>().setConstant(
+  prior.head<geometry::DepthCorrection::kLinearTerms>().setConstant(
       1.0 / (config_.linear_sigma * config_.linear_sigma));
   Information total = information_;
   total.diagonal() += prior;
-  return DepthCorrection(total.ldlt().solve(vector_));
+  return geometry::DepthCorrection(total.ldlt().solve(vector_));
 }
 
 }  // namespace geomap::perception

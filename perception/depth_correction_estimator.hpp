@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "perception/depth_correction.hpp"
+#include "geometry/depth_correction.hpp"
 #include "perception/surface_image.hpp"
 
 namespace geomap::perception {
@@ -50,7 +50,7 @@ class DepthCorrectionEstimator {
   struct View {
     const SurfaceImage& surfaces;
     const Eigen::Isometry3d& T_world_camera;
-    const DepthCorrection& applied;
+    const geometry::DepthCorrection& applied;
   };
 
   /// @brief Adds what two views say.
@@ -58,11 +58,12 @@ class DepthCorrectionEstimator {
   int add(const View& a, const View& b);
 
   /// @brief The most probable correction.
-  DepthCorrection estimate() const;
+  geometry::DepthCorrection estimate() const;
 
  private:
-  using Terms = DepthCorrection::Terms;
-  using Information = Eigen::Matrix<double, DepthCorrection::kTerms, DepthCorrection::kTerms>;
+  using Terms = geometry::DepthCorrection::Terms;
+  using Information =
+      Eigen::Matrix<double, geometry::DepthCorrection::kTerms, geometry::DepthCorrection::kTerms>;
 
   DepthCorrectionConfig config_;
   Information information_ = Information::Zero();

@@ -73,11 +73,12 @@ bool PointMap::move(std::int64_t keyframe, const Eigen::Isometry3d& T_world_came
   return true;
 }
 
-void PointMap::set_depth_correction(const DepthCorrection& correction) {
+void PointMap::set_depth_correction(const geometry::DepthCorrection& correction) {
   if (revisions_.at(revision_).keyframes.empty()) revisions_.erase(revision_);
   for (auto& [number, revision] : revisions_) {
     const geometry::CameraModel& camera = kept_.at(*revision.keyframes.begin()).frame.depth_camera;
-    revision.change = DepthCorrection::largest_difference(revision.correction, correction, camera);
+    revision.change =
+        geometry::DepthCorrection::largest_difference(revision.correction, correction, camera);
   }
   revisions_.emplace(++revision_, Revision{correction});
 }

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "geometry/depth_correction.hpp"
 #include "geometry/rgbd_frame.hpp"
-#include "perception/depth_correction.hpp"
 #include "perception/surface_image.hpp"
 #include "perception/voxel_map.hpp"
 
@@ -71,8 +71,10 @@ class PointMap {
 
   /// @brief Another correction of depth from here on. Key frames in the map keep the one they have
   /// until refresh().
-  void set_depth_correction(const DepthCorrection& correction);
-  const DepthCorrection& depth_correction() const { return revisions_.at(revision_).correction; }
+  void set_depth_correction(const geometry::DepthCorrection& correction);
+  const geometry::DepthCorrection& depth_correction() const {
+    return revisions_.at(revision_).correction;
+  }
 
   /// @brief Gives up to `count` key frames the present correction, those first whose own is
   /// farthest from it; of equals, the newest. @param least_change of the correction somewhere in
@@ -105,7 +107,7 @@ class PointMap {
   };
   // A correction and the key frames that have it.
   struct Revision {
-    DepthCorrection correction;
+    geometry::DepthCorrection correction;
     std::set<std::int64_t> keyframes = {};
     double change = 0.0;  // to the present one, largest in the image
   };

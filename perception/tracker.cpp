@@ -229,9 +229,9 @@ void Tracker::improve_depth_correction() {
     correction_.add(view_of(newest), view_of(surfaces_[before]));
   }
   if (keyframes_.size() < kLeastKeyframes) return;
-  const DepthCorrection estimate = correction_.estimate();
-  if (DepthCorrection::largest_difference(estimate, point_map_.depth_correction(),
-                                          newest.surfaces.camera()) >=
+  const geometry::DepthCorrection estimate = correction_.estimate();
+  if (geometry::DepthCorrection::largest_difference(estimate, point_map_.depth_correction(),
+                                                    newest.surfaces.camera()) >=
       config_.depth_correction.least_change) {
     point_map_.set_depth_correction(estimate);
     ++counts_.corrections;

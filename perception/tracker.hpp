@@ -145,7 +145,7 @@ class Tracker {
     std::int64_t id;
     Eigen::Isometry3d T_world_camera;
     SurfaceImage surfaces;
-    DepthCorrection correction;  // that they were made with
+    geometry::DepthCorrection correction;  // that they were made with
   };
 
   std::optional<Start> start_of(const Prior& prior, std::int64_t utime) const;

@@ -17,11 +17,13 @@ using geometry::CameraModel;
 
 /// What the estimator makes of all pairs of views with this error.
 /// @param metres, degrees of error of each pose that it is told.
-DepthCorrection learnt(const DepthCorrection& truth, double metres, double degrees,
-                       const std::vector<DepthCorrection>& applied = {DepthCorrection()}) {
+geometry::DepthCorrection learnt(const geometry::DepthCorrection& truth, double metres,
+                                 double degrees,
+                                 const std::vector<geometry::DepthCorrection>& applied = {
+                                     geometry::DepthCorrection()}) {
   std::vector<SurfaceImage> views;
   std::vector<Isometry3d> told;
-  std::vector<DepthCorrection> corrections;
+  std::vector<geometry::DepthCorrection> corrections;
   for (const Isometry3d& T : poses_around_the_room()) {
     const auto rendering = testing::render(testing::small_room(), testing::kinect_camera(7), T);
     corrections.push_back(applied[views.size() % applied.size()]);
@@ -38,7 +40,7 @@ DepthCorrection learnt(const DepthCorrection& truth, double metres, double degre
 }
 
 /// Root mean square over the image.
-double rms(const DepthCorrection& correction) {
+double rms(const geometry::DepthCorrection& correction) {
   const CameraModel camera = testing::kinect_camera(7);
   double squares = 0.0;
   for (int v = 0; v < camera.height; ++v) {
@@ -50,8 +52,9 @@ double rms(const DepthCorrection& correction) {
   return std::sqrt(squares / (camera.width * camera.height));
 }
 
-double relative_error(const DepthCorrection& found, const DepthCorrection& truth) {
-  return rms(DepthCorrection(found.coefficients() - truth.coefficients())) / rms(truth);
+double relative_error(const geometry::DepthCorrection& found,
+                      const geometry::DepthCorrection& truth) {
+  return rms(geometry::DepthCorrection(found.coefficients() - truth.coefficients())) / rms(truth);
 }
 
 TEST(DepthCorrectionEstimator, WithoutViewsThereIsNoCorrection) {
@@ -71,20 +74,22 @@ TEST(DepthCorrectionEstimator, LearnsItAsWellWherePosesAreOffByACentimetre) {
 }
 
 TEST(DepthCorrectionEstimator, FindsTheWholeErrorWhereAPartIsCorrectedAlready) {
-  const DepthCorrection half(0.5 * bowl().coefficients());
+  const geometry::DepthCorrection half(0.5 * bowl().coefficients());
   EXPECT_LT(relative_error(learnt(bowl(), 0.0, 0.0, {half}), bowl()), 0.3);
 }
 
 TEST(DepthCorrectionEstimator, FindsItFromViewsOfWhichEachWasCorrectedInAnotherWay) {
-  const DepthCorrection half(0.5 * bowl().coefficients()), beyond(1.4 * bowl().coefficients());
+  const geometry::DepthCorrection half(0.5 * bowl().coefficients()),
+      beyond(1.4 * bowl().coefficients());
   EXPECT_LT(relative_error(learnt(bowl(), 0.0, 0.0, {{}, half, beyond}), bowl()), 0.3);
 }
 
 TEST(DepthCorrectionEstimator, FindsNothingWhereThereIsNoError) {
   const CameraModel camera = testing::kinect_camera();
   for (const double metres : {0.0, 0.01}) {
-    const double largest = DepthCorrection::largest_difference(
-        learnt(DepthCorrection(), metres, 50.0 * metres), DepthCorrection(), camera);
+    const double largest = geometry::DepthCorrection::largest_difference(
+        learnt(geometry::DepthCorrection(), metres, 50.0 * metres), geometry::DepthCorrection(),
+        camera);
     EXPECT_LT(largest, 0.001);
     RecordProperty("largest at " + std::to_string(metres) + " m", std::to_string(largest));
   }

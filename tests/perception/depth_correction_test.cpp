@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "perception/depth_correction.hpp"
+#include "geometry/depth_correction.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,31 +16,31 @@ namespace {
 using Eigen::Isometry3d;
 using geometry::CameraModel;
 using geometry::RgbdFrame;
-using Terms = DepthCorrection::Terms;
+using Terms = geometry::DepthCorrection::Terms;
 
 TEST(DepthCorrection, ItsTermsAreTheMonomialsOfDegreeOneToFour) {
   constexpr double kX = 0.55, kY = 0.41;  // of the ray at the border, see depth_correction.cpp
   for (const auto& [x, y] : {std::pair{1.0, 1.0}, std::pair{0.7, -0.4}, std::pair{-0.3, 0.9}}) {
-    const Terms terms = DepthCorrection::terms(kX * x, kY * y);
+    const Terms terms = geometry::DepthCorrection::terms(kX * x, kY * y);
     int k = 0;
     for (int degree = 1; degree <= 4; ++degree) {
       for (int of_y = 0; of_y <= degree; ++of_y, ++k) {
         EXPECT_NEAR(terms(k), std::pow(x, degree - of_y) * std::pow(y, of_y), 1e-12) << k;
       }
     }
-    EXPECT_EQ(k, DepthCorrection::kTerms);
+    EXPECT_EQ(k, geometry::DepthCorrection::kTerms);
   }
 }
 
 TEST(DepthCorrection, ItsShareIsTheSumOfTheTermsAndZeroInTheMiddle) {
   Terms coefficients;
-  for (int k = 0; k < DepthCorrection::kTerms; ++k) coefficients(k) = 0.001 * (k + 1);
-  const DepthCorrection correction(coefficients);
+  for (int k = 0; k < geometry::DepthCorrection::kTerms; ++k) coefficients(k) = 0.001 * (k + 1);
+  const geometry::DepthCorrection correction(coefficients);
   EXPECT_EQ(correction.share(0.0, 0.0), 0.0);
   EXPECT_NEAR(correction.share(0.55, 0.41), 0.001 * 105.0, 1e-12);  // all terms are 1
   EXPECT_NEAR(correction.share(0.55, 0.0), 0.001 * (1 + 3 + 6 + 10), 1e-12);
   EXPECT_FALSE(correction.is_none());
-  EXPECT_TRUE(DepthCorrection().is_none());
+  EXPECT_TRUE(geometry::DepthCorrection().is_none());
 }
 
 TEST(DepthCorrection, TheLargestDifferenceIsThatOverTheImage) {
@@ -48,9 +48,10 @@ TEST(DepthCorrection, TheLargestDifferenceIsThatOverTheImage) {
   Terms slope = Terms::Zero();
   slope(0) = 0.003;
   const double border = 320.0 / 585.0 / 0.55;  // x of the first column
-  EXPECT_NEAR(DepthCorrection::largest_difference(DepthCorrection(slope), {}, camera),
-              0.003 * border, 1e-9);
-  EXPECT_EQ(DepthCorrection::largest_difference(bowl(), bowl(), camera), 0.0);
+  EXPECT_NEAR(
+      geometry::DepthCorrection::largest_difference(geometry::DepthCorrection(slope), {}, camera),
+      0.003 * border, 1e-9);
+  EXPECT_EQ(geometry::DepthCorrection::largest_difference(bowl(), bowl(), camera), 0.0);
 }
 
 TEST(DepthCorrection, CorrectsEachReadingByItsShare) {
@@ -72,7 +73,7 @@ TEST(DepthCorrection, LeavesPixelsWithoutAReadingAndWhatWouldLeaveTheRange) {
   RgbdFrame frame;
   frame.depth_camera = {5, 1, 2.0, 2.0, 2.0, 0.0};  // s: -0.9, -0.5, 0, 0.5, 0.9
   frame.depth = {5, 1, {0xffff, 1000, 0, 0xffff, 65000}};
-  const RgbdFrame better = corrected(frame, DepthCorrection(slope));
+  const RgbdFrame better = corrected(frame, geometry::DepthCorrection(slope));
   EXPECT_THAT(better.depth.millimetres, ::testing::ElementsAre(0xffff, 545, 0, 0xffff, 65000));
 }
 
@@ -80,7 +81,8 @@ TEST(DepthCorrection, NoneLeavesTheFrameAsItIs) {
   const auto frame = testing::render(testing::small_room(), testing::kinect_camera(7),
                                      poses_around_the_room().front())
                          .frame;
-  EXPECT_EQ(corrected(frame, DepthCorrection()).depth.millimetres, frame.depth.millimetres);
+  EXPECT_EQ(corrected(frame, geometry::DepthCorrection()).depth.millimetres,
+            frame.depth.millimetres);
 }
 
 TEST(DepthCorrection, ThrowsWhereImageAndCameraDisagree) {
@@ -109,7 +111,7 @@ class CorrectedMap : public ::testing::Test {
       map_.insert(static_cast<std::int64_t>(i), frames_.back(), all[i]);
     }
   }
-  void correct(const DepthCorrection& correction) {
+  void correct(const geometry::DepthCorrection& correction) {
     map_.set_depth_correction(correction);
     map_.refresh(map_.keyframes(), 0.0);
   }
@@ -169,10 +171,10 @@ TEST_F(CorrectedMap, ChangesOneKeyFrameAtATimeTheMostOutdatedFirst) {
   for (const int i : {0, 1}) mixed.insert(i, frames_[at(i)], poses_around_the_room()[at(i)]);
   expect_same(map_, mixed);
   // Half of the way back: key frame 2 and the others are equally far from it now.
-  map_.set_depth_correction(DepthCorrection(0.4 * bowl().coefficients()));
+  map_.set_depth_correction(geometry::DepthCorrection(0.4 * bowl().coefficients()));
   EXPECT_EQ(map_.refresh(1, 0.0), 1U);
   mixed.remove(2);
-  mixed.set_depth_correction(DepthCorrection(0.4 * bowl().coefficients()));
+  mixed.set_depth_correction(geometry::DepthCorrection(0.4 * bowl().coefficients()));
   mixed.insert(2, frames_[2], poses_around_the_room()[2]);
   expect_same(map_, mixed);
   EXPECT_EQ(map_.refresh(9, 0.0), 2U);
@@ -181,7 +183,7 @@ TEST_F(CorrectedMap, ChangesOneKeyFrameAtATimeTheMostOutdatedFirst) {
 
 TEST_F(CorrectedMap, LeavesAKeyFrameAsItIsWhereTheChangeIsTooSmall) {
   const double change =
-      DepthCorrection::largest_difference(bowl(), {}, map_.view_of(0)->thin.depth_camera);
+      geometry::DepthCorrection::largest_difference(bowl(), {}, map_.view_of(0)->thin.depth_camera);
   map_.set_depth_correction(bowl());
   EXPECT_EQ(map_.refresh(9, 1.01 * change), 0U);
   EXPECT_EQ(map_.refresh(9, 0.99 * change), 3U);

@@ -5,16 +5,16 @@
 
 namespace geomap::perception {
 
-DepthCorrection bowl() {
-  DepthCorrection::Terms coefficients = DepthCorrection::Terms::Zero();
+geometry::DepthCorrection bowl() {
+  geometry::DepthCorrection::Terms coefficients = geometry::DepthCorrection::Terms::Zero();
   coefficients(2) = 0.004;   // x²
   coefficients(4) = -0.003;  // y²
   coefficients(6) = 0.002;   // x² y
-  return DepthCorrection(coefficients);
+  return geometry::DepthCorrection(coefficients);
 }
 
 geometry::RgbdFrame distorted(const testing::Rendering& rendering,
-                              const DepthCorrection& correction) {
+                              const geometry::DepthCorrection& correction) {
   geometry::RgbdFrame frame = rendering.frame;
   for (int v = 0; v < frame.depth.height; ++v) {
     for (int u = 0; u < frame.depth.width; ++u) {

@@ -4,17 +4,17 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "perception/depth_correction.hpp"
+#include "geometry/depth_correction.hpp"
 #include "support/plane_renderer.hpp"
 
 namespace geomap::perception {
 
 /// @brief A bowl as Kinects have it, and a twist: up to 8 thousandths of the depth.
-DepthCorrection bowl();
+geometry::DepthCorrection bowl();
 
 /// @brief The frame as a camera with this fixed error would have read it: z' = z / (1 + s).
 geometry::RgbdFrame distorted(const testing::Rendering& rendering,
-                              const DepthCorrection& correction);
+                              const geometry::DepthCorrection& correction);
 
 /// @brief Forty poses in the small room, of a robot that looks around: it sees the same surfaces
 /// at all places of the image.

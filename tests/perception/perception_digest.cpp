@@ -110,7 +110,7 @@ std::uint64_t checksum(const perception::ExtractedPlanes& found) {
 std::uint64_t registration_checksum(const geometry::RgbdFrame& frame) {
   perception::PointMap map;
   map.set_depth_correction(
-      perception::DepthCorrection(perception::DepthCorrection::Terms::Constant(0.002)));
+      geometry::DepthCorrection(geometry::DepthCorrection::Terms::Constant(0.002)));
   map.insert(1, frame, Eigen::Isometry3d::Identity());
   const perception::FrameView view = map.view(frame);
   const Eigen::Isometry3d beside(Eigen::Translation3d(0.02, -0.01, 0.015) *

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "perception/depth_correction.hpp"
+#include "geometry/depth_correction.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "geometry/multiversion.hpp"
 
-namespace geomap::perception {
+namespace geomap::geometry {
 namespace {
 
 // Viewing rays at the border of a Kinect's image. They only set the unit of the coefficients.
@@ -36,9 +36,8 @@ GEOMAP_MULTIVERSION void correct_row(const double* __restrict x, int count,
     const int mm = millimetres[u];
     const double share = c[0] + x[u] * (c[1] + x[u] * (c[2] + x[u] * (c[3] + x[u] * c[4])));
     const double depth = mm * (1.0 + share) + 0.5;  // rounded by what follows
-    const bool is_kept = (mm == geometry::DepthImage::kNoReading) |
-                         (mm == geometry::DepthImage::kInvalid) | !(depth > 1.0) |
-                         !(depth < 65535.0);
+    const bool is_kept = (mm == DepthImage::kNoReading) | (mm == DepthImage::kInvalid) |
+                         !(depth > 1.0) | !(depth < 65535.0);
     const int better = static_cast<int>(is_kept ? 0.0 : depth);
     millimetres[u] = static_cast<std::uint16_t>(is_kept ? mm : better);
   }
@@ -56,7 +55,7 @@ DepthCorrection::Terms DepthCorrection::terms(double ray_x, double ray_y) {
 }
 
 double DepthCorrection::largest_difference(const DepthCorrection& a, const DepthCorrection& b,
-                                           const geometry::CameraModel& camera) {
+                                           const CameraModel& camera) {
   const DepthCorrection difference(a.coefficients_ - b.coefficients_);
   double largest = 0.0;
   for (int row = 0; row < kSamples; ++row) {
@@ -69,14 +68,14 @@ double DepthCorrection::largest_difference(const DepthCorrection& a, const Depth
   return largest;
 }
 
-geometry::RgbdFrame corrected(const geometry::RgbdFrame& frame, const DepthCorrection& correction) {
-  const geometry::CameraModel& camera = frame.depth_camera;
+RgbdFrame corrected(const RgbdFrame& frame, const DepthCorrection& correction) {
+  const CameraModel& camera = frame.depth_camera;
   if (!camera.valid() || frame.depth.width != camera.width || frame.depth.height != camera.height ||
       frame.depth.millimetres.size() !=
           static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height)) {
     throw std::invalid_argument("depth correction: depth image and camera disagree");
   }
-  geometry::RgbdFrame result = frame;
+  RgbdFrame result = frame;
   if (correction.is_none()) return result;
   std::vector<double> x(static_cast<std::size_t>(camera.width));
   for (int u = 0; u < camera.width; ++u) {
@@ -90,4 +89,4 @@ geometry::RgbdFrame corrected(const geometry::RgbdFrame& frame, const DepthCorre
   return result;
 }
 
-}  // namespace geomap::perception
+}  // namespace geomap::geometry

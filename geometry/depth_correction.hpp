@@ -5,7 +5,7 @@
 
 #include "geometry/rgbd_frame.hpp"
 
-namespace geomap::perception {
+namespace geomap::geometry {
 
 /// @brief A depth camera's fixed error as a smooth share of the depth that depends on the place in
 /// the image: z_true = z · (1 + s(x, y)), s a polynomial of degree 4 without a constant term in the
@@ -30,7 +30,7 @@ class DepthCorrection {
 
   /// @brief Largest difference of s between two corrections over the image of a camera.
   static double largest_difference(const DepthCorrection& a, const DepthCorrection& b,
-                                   const geometry::CameraModel& camera);
+                                   const CameraModel& camera);
 
  private:
   Terms coefficients_;
@@ -39,6 +39,6 @@ class DepthCorrection {
 /// @brief The frame with corrected depth, rounded to the millimetre. Pixels without a reading, and
 /// readings that the correction would take out of the image's range, are left as they are.
 /// @throws std::invalid_argument when depth image and camera disagree in size.
-geometry::RgbdFrame corrected(const geometry::RgbdFrame& frame, const DepthCorrection& correction);
+RgbdFrame corrected(const RgbdFrame& frame, const DepthCorrection& correction);
 
-}  // namespace geomap::perception
+}  // namespace geomap::geometry
