@@ -113,8 +113,9 @@ class FreenectCamera : public RgbdCamera {
     format_ = depth.depth_format;
     description_.name = "Kinect " + (options.device.empty() ? "0" : options.device);
     description_.color = nominal_kinect_color_camera();
+    description_.is_registered = format_ == FREENECT_DEPTH_REGISTERED;
     description_.depth =
-        format_ == FREENECT_DEPTH_REGISTERED ? description_.color : nominal_kinect_depth_camera();
+        description_.is_registered ? description_.color : nominal_kinect_depth_camera();
     freenect_set_user(device_.handle(), this);
     freenect_set_depth_callback(device_.handle(), take_depth);
     freenect_set_video_callback(device_.handle(), take_color);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace geomap::drivers {
 
@@ -19,21 +18,7 @@ std::vector<std::string> KinectConfig::validate() const {
     messages.push_back("led must be off, green, red, yellow or blink");
   }
   if (!(timeout > 0.0)) messages.push_back("timeout must be positive");
-  const bool from_fov = fx == 0.0 && fy == 0.0;
-  if (!from_fov && !(fx > 0.0 && fy > 0.0)) {
-    messages.push_back("fx and fy must both be positive, or both 0");
-  }
   return messages;
-}
-
-geometry::CameraModel KinectConfig::camera(double horizontal_fov, double vertical_fov) const {
-  if (fx > 0.0) return {width, height, fx, fy, cx, cy};
-  return {width,
-          height,
-          0.5 * width / std::tan(0.5 * horizontal_fov),
-          0.5 * height / std::tan(0.5 * vertical_fov),
-          0.5 * (width - 1),
-          0.5 * (height - 1)};
 }
 
 }  // namespace geomap::drivers

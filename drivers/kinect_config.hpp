@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "geometry/camera_model.hpp"
-
 namespace geomap::drivers {
 
 /// @brief How a camera is run.
@@ -18,17 +16,11 @@ struct KinectConfig {
   int jpeg_quality = 90;
   std::string led = "green";  // of a Kinect while it is used: off, green, red, yellow or blink
   double timeout = 1.0;       // without an image, after which the camera is opened anew [s]
-  double fx = 0.0;            // [pixel]; 0: fx to cy follow from the field of view
-  double fy = 0.0;            // [pixel]
-  double cx = 0.0;            // [pixel]
-  double cy = 0.0;            // [pixel]
 
   std::vector<std::string> validate() const;
 
   /// @brief Half the time between two frames [us].
   std::int64_t pairing_tolerance() const { return 500'000 / rate; }
-  /// @brief The camera of the images. @param horizontal_fov, vertical_fov of the device [rad].
-  geometry::CameraModel camera(double horizontal_fov, double vertical_fov) const;
 
   template <typename Self, typename Visitor>
   static void visit(Self& self, Visitor&& visitor) {
@@ -39,10 +31,6 @@ struct KinectConfig {
     visitor("jpeg_quality", self.jpeg_quality);
     visitor("led", self.led);
     visitor("timeout", self.timeout);
-    visitor("fx", self.fx);
-    visitor("fy", self.fy);
-    visitor("cx", self.cx);
-    visitor("cy", self.cy);
   }
 };
 

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   messaging::LiveOptions live_options;
   drivers::CameraOptions camera;
   std::optional<double> tilt_deg;
+  std::string camera_file;
   bool list = false;
   return messaging::run_program(
       argc, argv,
@@ -25,6 +26,8 @@ int main(int argc, char** argv) {
                       "openni2: PrimeSense, Xtion; freenect: Kinect v1; else both are tried");
         parser.option("--device", camera.device, "see --list, or FILE.oni; empty: any camera");
         parser.option("--record", camera.recording, "FILE.oni to write; empty: none");
+        parser.option("--camera", camera_file,
+                      "camera file (config/cameras): intrinsics, depth correction");
         parser.option("--tilt", tilt_deg, "of a Kinect's motor, -27 to 27 degrees upwards");
         parser.flag("--list", list, "print cameras and their modes, nothing else");
       },
@@ -42,7 +45,9 @@ int main(int argc, char** argv) {
         const drivers::CameraSource source{
             .open = drivers::camera_opener(camera, config),
             .is_recording = camera.is_playback(),
-            .keeps_sensor_time = camera.is_playback() && camera.lossless};
+            .keeps_sensor_time = camera.is_playback() && camera.lossless,
+            .known = camera_file.empty() ? drivers::CameraFile()
+                                         : drivers::read_camera_file(camera_file)};
         messaging::LiveProcess live("geomap-kinect", common, live_options);
         drivers::KinectProcess process(config, source, live);
         return live.run([] {}, [&] { return process.summary(); });

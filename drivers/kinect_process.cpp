@@ -27,6 +27,22 @@ CameraThreadConfig thread_config(const KinectConfig& config, bool is_recording) 
   return result;
 }
 
+// What a calibration says counts more than what a camera says of itself.
+void use_known_intrinsics(const CameraFile& known, CameraDescription& description) {
+  const auto& depth = description.is_registered ? known.color : known.depth;
+  for (const auto& [from, to] :
+       {std::pair{&known.color, &description.color}, std::pair{&depth, &description.depth}}) {
+    if (!*from) continue;
+    if ((*from)->width != to->width || (*from)->height != to->height) {
+      throw messaging::FatalFault(fmt::format(
+          "the camera file is for {}x{}, the camera has {}x{}: change kinect.width and height, or "
+          "the file",
+          (*from)->width, (*from)->height, to->width, to->height));
+    }
+    *to = **from;
+  }
+}
+
 }  // namespace
 
 KinectProcess::KinectProcess(const KinectConfig& config, CameraSource source,
@@ -65,6 +81,7 @@ void KinectProcess::take(ImageArrived arrived) {
 
 void KinectProcess::take(CameraOpened opened) {
   description_ = std::move(opened.description);
+  use_known_intrinsics(source_.known, description_);
   state_ = State::kOpen;
   pairing_.clear();
   live_.health().count("camera.opened");
@@ -110,6 +127,9 @@ void KinectProcess::publish(ImagePair pair) {
   frame.color = std::move(pair.color);
   frame.depth_camera = description_.depth;
   frame.color_camera = description_.color;
+  if (!source_.known.correction.is_none()) {
+    frame = geometry::corrected(frame, source_.known.correction);
+  }
   const messaging::Stopwatch compressing;
   const auto message = messaging::to_message(frame, {}, config_.jpeg_quality);
   live_.health().time("compression", compressing.seconds());

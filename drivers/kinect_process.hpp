@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "drivers/camera_file.hpp"
 #include "drivers/camera_thread.hpp"
 #include "drivers/frame_pairing.hpp"
 #include "drivers/kinect_config.hpp"
@@ -18,6 +19,7 @@ struct CameraSource {
   CameraThread::Open open;
   bool is_recording = false;       // ends
   bool keeps_sensor_time = false;  // as utime, so that a recording always gives the same
+  CameraFile known;                // of the camera: intrinsics, depth correction
 };
 
 /// @brief A camera's images as RGBD_FRAME. It waits for a camera, opens it again when it is gone or

@@ -105,7 +105,7 @@ class OpenNi2Camera : public RgbdCamera {
     device_.setDepthColorSyncEnabled(true);  // cameras without it still pair by time stamp
     const bool is_registered =
         device_.getImageRegistrationMode() == openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
-    description_ = describe_openni(device_, *depth_, *color_, is_registered, config);
+    description_ = describe_openni(device_, *depth_, *color_, is_registered);
     if (!recording.empty()) record(unused_name(recording));
     depth_->start();
     color_->start();

@@ -46,7 +46,7 @@ class OpenNi2Recording : public RgbdCamera {
         depth_(file.string(), openni::SENSOR_DEPTH, lossless),
         color_(file.parent_path() / "." / file.filename(), openni::SENSOR_COLOR, lossless),
         description_(describe_openni(depth_.device(), depth_.stream(), color_.stream(),
-                                     config.registered, config)) {}
+                                     config.registered)) {}
 
   const CameraDescription& description() const override { return description_; }
   bool has_ended() const override { return depth_.has_ended() && color_.has_ended(); }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -68,11 +69,15 @@ OpenNi2Stream::OpenNi2Stream(const openni::Device& device, openni::SensorType ty
                                                  : "the camera has no colour");
 }
 
-geometry::CameraModel OpenNi2Stream::camera(const KinectConfig& config) const {
-  KinectConfig actual = config;  // a recording has the size it has
-  actual.width = stream_.getVideoMode().getResolutionX();
-  actual.height = stream_.getVideoMode().getResolutionY();
-  return actual.camera(stream_.getHorizontalFieldOfView(), stream_.getVerticalFieldOfView());
+geometry::CameraModel OpenNi2Stream::camera() const {
+  const openni::VideoMode mode = stream_.getVideoMode();
+  const int width = mode.getResolutionX(), height = mode.getResolutionY();
+  return {width,
+          height,
+          0.5 * width / std::tan(0.5 * stream_.getHorizontalFieldOfView()),
+          0.5 * height / std::tan(0.5 * stream_.getVerticalFieldOfView()),
+          0.5 * (width - 1),
+          0.5 * (height - 1)};
 }
 
 void OpenNi2Stream::start() {
@@ -116,16 +121,15 @@ OpenNi2Stream* wait_for_openni(std::initializer_list<OpenNi2Stream*> streams, in
 }
 
 CameraDescription describe_openni(const openni::Device& device, const OpenNi2Stream& depth,
-                                  const OpenNi2Stream& color, bool is_registered,
-                                  const KinectConfig& config) {
+                                  const OpenNi2Stream& color, bool is_registered) {
   const openni::DeviceInfo& info = device.getDeviceInfo();
   CameraDescription description;
   description.name = fmt::format("{} {} ({})", info.getVendor(), info.getName(), info.getUri());
-  description.color = color.camera(config);
-  description.depth = is_registered ? description.color : depth.camera(config);
+  description.color = color.camera();
+  description.depth = is_registered ? description.color : depth.camera();
+  description.is_registered = is_registered;
   if (!description.depth.valid() || !description.color.valid()) {
-    throw SourceError(description.name +
-                      " does not say its field of view: set kinect.fx and the others");
+    throw SourceError(description.name + " does not say its field of view");
   }
   return description;
 }

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "drivers/kinect_config.hpp"
 #include "drivers/rgbd_camera.hpp"
 
 namespace geomap::drivers {
@@ -33,8 +32,8 @@ class OpenNi2Stream {
   OpenNi2Stream(const openni::Device& device, openni::SensorType type);
 
   openni::VideoStream& handle() { return stream_; }
-  /// @brief The camera of its images: of the configuration, or from the field of view.
-  geometry::CameraModel camera(const KinectConfig& config) const;
+  /// @brief The camera of its images, from the field of view.
+  geometry::CameraModel camera() const;
   void start();
 
   /// @brief Reads the image that is there, or waits for one. @return nothing for half an image.
@@ -57,9 +56,8 @@ OpenNi2Stream* wait_for_openni(std::initializer_list<OpenNi2Stream*> streams, in
 
 /// @brief What frames of the two streams look like.
 /// @param is_registered depth is in the colour camera's view.
-/// @throws SourceError when neither device nor configuration says the field of view.
+/// @throws SourceError when the device does not say its field of view.
 CameraDescription describe_openni(const openni::Device& device, const OpenNi2Stream& depth,
-                                  const OpenNi2Stream& color, bool is_registered,
-                                  const KinectConfig& config);
+                                  const OpenNi2Stream& color, bool is_registered);
 
 }  // namespace geomap::drivers

@@ -24,6 +24,7 @@ struct CameraDescription {
   std::string name;  // for people, with the device's address
   geometry::CameraModel depth;
   geometry::CameraModel color;
+  bool is_registered = false;  // depth is in the colour camera's view
 };
 
 /// @brief How a camera is held.

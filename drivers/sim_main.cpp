@@ -19,6 +19,7 @@ struct Options {
   std::string scene, trajectory, log, fakenect, noise = "0";
   drivers::OdometryDriftConfig drift;
   double rate = 30.0;
+  double distortion = drivers::DepthSensorConfig().bias_at_corner;
 };
 
 void declare(messaging::OptionParser& parser, Options& options) {
@@ -30,6 +31,8 @@ void declare(messaging::OptionParser& parser, Options& options) {
                 "folder to write, which fakenect plays in place of a Kinect");
   parser.option("--noise", options.noise,
                 "of depth: standard deviation [m], or kinect: noise, steps, shadows, distortion");
+  parser.option("--distortion", options.distortion,
+                "of a Kinect's depth at the image's corner, as a share of the depth");
   parser.option("--drift-m-per-m", options.drift.drift_m_per_m, "of the odometry on POSE");
   parser.option("--drift-deg-per-m", options.drift.drift_deg_per_m, "of the odometry on POSE");
   parser.option("--seed", options.drift.seed, "of noise and drift");
@@ -42,6 +45,7 @@ drivers::SimulationConfig config_of(const Options& options) {
   config.seed = options.drift.seed;
   if (options.noise == "kinect") {
     config.sensor.noise = drivers::SensorNoise::kKinect;
+    config.sensor.bias_at_corner = options.distortion;
   } else {
     const char* end = options.noise.data() + options.noise.size();
     const auto parsed = std::from_chars(options.noise.data(), end, config.sensor.sigma);

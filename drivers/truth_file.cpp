@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "drivers/frame_source.hpp"
+#include "drivers/text_file.hpp"
 #include "drivers/yaml_map.hpp"
 
 namespace geomap::drivers {
@@ -123,18 +124,7 @@ Truth read_truth(const fs::path& path) {
 void write_truth(const Truth& truth, const fs::path& path) {
   std::string text = truth.planes.empty() ? "planes: []\n" : "planes:\n";
   for (const TruthPlane& plane : truth.planes) text += to_text(plane);
-
-  fs::path part = path;
-  part += ".part";
-  std::ofstream file(part, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(part, path, error);
-  if (!file || error) {
-    fs::remove(part, error);
-    throw SourceError(path.string() + ": cannot be written");
-  }
+  write_text_file(path, text);
 }
 
 }  // namespace geomap::drivers

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "drivers/camera_file.hpp"
 #include "geometry/polygon.hpp"
 #include "logs/git_revision.hpp"
 #include "logs/growth_pictures.hpp"
@@ -49,9 +50,10 @@ void check(const ReplayOptions& options) {
 
 // One reading of the log from front to back.
 struct Pass {
-  Pass(const PipelineConfig& config, int threads)
+  Pass(const PipelineConfig& config, int threads, const geometry::DepthCorrection& correction)
       : pipeline(config, threads),
-        input(pipeline.tracking(), {config.driver_depth.camera(), config.driver_color.camera()}) {}
+        input(pipeline.tracking(), {config.driver_depth.camera(), config.driver_color.camera()},
+              correction) {}
 
   Pipeline pipeline;
   perception::SensorMessages input;
@@ -165,13 +167,16 @@ void append_times(const Pipeline& pipeline, std::vector<StageTimes>& times) {
 ReplayResult replay(const ReplayOptions& options, const messaging::Config& config) {
   check(options);
   const PipelineConfig settings = read_pipeline_config(config);
+  const geometry::DepthCorrection correction =
+      options.camera.empty() ? geometry::DepthCorrection()
+                             : drivers::read_camera_file(options.camera).correction;
   messaging::LogReader(options.log);  // a wrong name shall not leave an empty folder behind
   require_other_file(options.log, options.log_out);
   require_other_file(options.log, options.output / "map.lcmlog");
   std::filesystem::create_directories(options.output);
   mapping::write_file(options.output / "config_used.yaml", config.to_yaml());
 
-  Pass first(settings, options.threads);
+  Pass first(settings, options.threads, correction);
   DerivedLog derived(options.log_out);
   GrowthPictures pictures(options.pictures_every);
   first.pipeline.on_tracked([&](const perception::TrackedFrame& frame) { derived.write(frame); });
@@ -195,7 +200,7 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   report.wall_seconds = first.seconds;
   append_times(pipeline, report.times);
   for (int pass = 1; pass < options.passes && !result.stopped; ++pass) {
-    Pass again(settings, options.threads);
+    Pass again(settings, options.threads, correction);
     run(again, options.log);
     if (again.stopped) break;  // the results of the first pass are whole
     append_times(again.pipeline, report.times);

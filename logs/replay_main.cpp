@@ -37,6 +37,9 @@ int main(int argc, char** argv) {
         parser.choice("--extractor", extractor, {"organized", "ransac"},
                       "how planes are found (extraction.extractor)");
         parser.choice("--merge", merge, {"moments", "paper"}, "how planes are merged (merge.mode)");
+        parser.option("--camera", options.camera,
+                      "camera file whose depth correction every frame gets (not for a log of "
+                      "geomap-kinect --camera, which is corrected)");
         parser.option("--threads", options.threads, "key frames extracted at the same time");
         parser.option("--log-out", options.log_out, "write derived messages into this log");
         parser.option("--pictures-every", options.pictures_every,

@@ -57,6 +57,11 @@ EncodedImage encoded(const image_t& image, bool compressed) {
   return {image.data, image.width, image.height, image.row_stride, compressed};
 }
 
+image_t depth_image(const RgbdFrame& frame) {
+  return to_image(frame, frame.depth_camera, 2, geomap::rgbd_frame_t::DEPTH_ZLIB,
+                  compress_depth(frame.depth.millimetres));
+}
+
 }  // namespace
 
 FrameResult assemble(FrameParts parts, ColorUse color) {
@@ -88,8 +93,7 @@ geomap::rgbd_frame_t to_message(const RgbdFrame& frame, std::span<const std::uin
   message.sensor = frame.sensor;
   message.depth_camera = to_message(frame.depth_camera);
   message.color_camera = to_message(frame.color_camera);
-  message.depth = to_image(frame, frame.depth_camera, 2, geomap::rgbd_frame_t::DEPTH_ZLIB,
-                           compress_depth(frame.depth.millimetres));
+  message.depth = depth_image(frame);
   if (!jpeg.empty() || !frame.color.empty()) {
     message.color = to_image(frame, frame.color_camera, 3, image_t::PIXEL_FORMAT_MJPEG,
                              jpeg.empty() ? encode_jpeg(frame.color, quality)
@@ -120,6 +124,12 @@ FrameResult to_frame(const geomap::rgbd_frame_t& message, ColorUse color) {
     parts.color = encoded(message.color, jpeg);
   }
   return assemble(std::move(parts), color);
+}
+
+void correct_depth(geomap::rgbd_frame_t& message, const geometry::DepthCorrection& correction) {
+  const FrameResult decoded = to_frame(message, ColorUse::kSkip);
+  if (!decoded.frame) return;
+  message.depth = depth_image(geometry::corrected(*decoded.frame, correction));
 }
 
 }  // namespace geomap::messaging

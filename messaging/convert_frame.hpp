@@ -7,6 +7,7 @@
 
 #include "bot_core/images_t.hpp"
 #include "geomap/rgbd_frame_t.hpp"
+#include "geometry/depth_correction.hpp"
 #include "geometry/rgbd_frame.hpp"
 #include "kinect/frame_msg_t.hpp"
 #include "messaging/frame_images.hpp"
@@ -31,6 +32,10 @@ geomap::rgbd_frame_t to_message(const geometry::RgbdFrame& frame,
 /// @brief The frame of a message. A reader that only needs utime, sequence or sensor takes them
 /// from the message, which holds the images still compressed.
 FrameResult to_frame(const geomap::rgbd_frame_t& message, ColorUse color = ColorUse::kDecode);
+
+/// @brief Corrects the depth of a message, which is deflated anew; one that cannot be decoded is
+/// left as it is.
+void correct_depth(geomap::rgbd_frame_t& message, const geometry::DepthCorrection& correction);
 
 /// @brief The cameras of a driver whose messages do not carry them.
 struct FrameCameras {

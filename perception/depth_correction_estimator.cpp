@@ -2,6 +2,7 @@
 #include "perception/depth_correction_estimator.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -99,13 +100,32 @@ int DepthCorrectionEstimator::add(const View& view_a, const View& view_b) {
   return sums.count;
 }
 
-geometry::DepthCorrection DepthCorrectionEstimator::estimate() const {
+DepthCorrectionEstimator::Information DepthCorrectionEstimator::posterior() const {
   Terms prior = Terms::Constant(1.0 / (config_.sigma * config_.sigma));
   prior.head<geometry::DepthCorrection::kLinearTerms>().setConstant(
       1.0 / (config_.linear_sigma * config_.linear_sigma));
   Information total = information_;
   total.diagonal() += prior;
-  return geometry::DepthCorrection(total.ldlt().solve(vector_));
+  return total;
+}
+
+double DepthCorrectionEstimator::largest_sigma(const geometry::CameraModel& camera) const {
+  constexpr int kSamples = 9;  // along each axis
+  const auto total = posterior().ldlt();
+  double largest = 0.0;
+  for (int row = 0; row < kSamples; ++row) {
+    for (int column = 0; column < kSamples; ++column) {
+      const Eigen::Vector3d ray = camera.ray(column * (camera.width - 1.0) / (kSamples - 1),
+                                             row * (camera.height - 1.0) / (kSamples - 1));
+      const Terms terms = geometry::DepthCorrection::terms(ray.x(), ray.y());
+      largest = std::max(largest, std::sqrt(terms.dot(total.solve(terms))));
+    }
+  }
+  return largest;
+}
+
+geometry::DepthCorrection DepthCorrectionEstimator::estimate() const {
+  return geometry::DepthCorrection(posterior().ldlt().solve(vector_));
 }
 
 }  // namespace geomap::perception

@@ -57,6 +57,10 @@ class DepthCorrectionEstimator {
   /// @return measurements used: 0 when the views share too little.
   int add(const View& a, const View& b);
 
+  /// @brief The largest standard deviation of the correction over the image of a camera, a share of
+  /// the depth: where nothing was seen that tells, it is that of the prior.
+  double largest_sigma(const geometry::CameraModel& camera) const;
+
   /// @brief The most probable correction.
   geometry::DepthCorrection estimate() const;
 
@@ -64,6 +68,8 @@ class DepthCorrectionEstimator {
   using Terms = geometry::DepthCorrection::Terms;
   using Information =
       Eigen::Matrix<double, geometry::DepthCorrection::kTerms, geometry::DepthCorrection::kTerms>;
+
+  Information posterior() const;  // information of data and prior
 
   DepthCorrectionConfig config_;
   Information information_ = Information::Zero();

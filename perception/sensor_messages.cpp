@@ -36,7 +36,7 @@ void SensorMessages::handle(const std::string& channel, Bytes data) {
     auto frame = decode<geomap::rgbd_frame_t>(channel, data);
     if (frame && has_sound_time(channel, *frame)) {
       missing_frames_ += sequence_.note(frame->sequence);
-      tracking_.add_frame(std::move(*frame));
+      add_frame(std::move(*frame));
     }
   } else if (channel == channels::kOpenniFrame) {
     take_foreign<bot_core::images_t>(channel, data);
@@ -65,7 +65,13 @@ void SensorMessages::take_foreign(const std::string& channel, Bytes data) {
     refuse(channel, messaging::to_string(own.fault));
     return;
   }
-  if (has_sound_time(channel, *own.message)) tracking_.add_frame(std::move(*own.message));
+  if (has_sound_time(channel, *own.message)) add_frame(std::move(*own.message));
+}
+
+// A frame that cannot be decoded is refused later, as any other.
+void SensorMessages::add_frame(geomap::rgbd_frame_t frame) {
+  if (!correction_.is_none()) messaging::correct_depth(frame, correction_);
+  tracking_.add_frame(std::move(frame));
 }
 
 }  // namespace geomap::perception

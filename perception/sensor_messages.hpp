@@ -21,8 +21,10 @@ class SensorMessages {
   using Bytes = std::span<const std::uint8_t>;
 
   /// @param cameras of the channels OPENNI_FRAME and KINECT_FRAME, which carry no intrinsics.
-  SensorMessages(TrackingProcess& tracking, const messaging::FrameCameras& cameras)
-      : tracking_(tracking), cameras_(cameras) {}
+  /// @param correction that every frame's depth gets first of all.
+  SensorMessages(TrackingProcess& tracking, const messaging::FrameCameras& cameras,
+                 const geometry::DepthCorrection& correction = {})
+      : tracking_(tracking), cameras_(cameras), correction_(correction) {}
 
   void handle(const std::string& channel, Bytes data);
 
@@ -40,9 +42,11 @@ class SensorMessages {
   template <class Message>
   void take_foreign(const std::string& channel, Bytes data);
   void refuse(const std::string& channel, const std::string& reason);
+  void add_frame(geomap::rgbd_frame_t frame);
 
   TrackingProcess& tracking_;
   messaging::FrameCameras cameras_;
+  geometry::DepthCorrection correction_;
   Refused refused_;
   messaging::SequenceGaps sequence_;
   std::int64_t missing_frames_ = 0;

@@ -131,6 +131,8 @@ class Tracker {
   /// @brief Blocks of the point map that have changed since the last call.
   std::vector<BlockIndex> take_changed_blocks() { return point_map_.take_changed_blocks(); }
   const TrackerCounts& counts() const { return counts_; }
+  /// @brief What the views say of the camera's depth error.
+  const DepthCorrectionEstimator& depth_correction_estimator() const { return correction_; }
 
  private:
   struct Start {

@@ -106,6 +106,29 @@ class Kinect(live_camera.CameraTest):
         self.assertGreater(len(frames), 5)
         self.assertLessEqual(set(frames), set(live_camera.digests(map(halved, self.simulated))))
 
+    def test_a_camera_file_gives_intrinsics_and_corrects_depth(self):
+        camera = self.folder / "camera.yaml"
+        camera.write_text("name: x\n"
+                          "color: {width: 640, height: 480, fx: 550, fy: 550, cx: 319.5, cy: 239.5}\n"
+                          "depth_correction: [0.05, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]\n")
+        log = self.folder / "corrected.lcmlog"
+        logger = live_system.Process(["lcm-logger", f"--lcm-url={live_system.UDP}", "-c",
+                                      "RGBD_FRAME", str(log)], self.folder)
+        kinect = self.start("--camera", str(camera))
+        self.wait_until_well()
+        kinect.stop()
+        logger.stop()
+        _, data = next(iter(live_system.read_log(log)))
+        self.assertEqual(self.types.rgbd_frame_t.decode(data).depth_camera.fx, 550.0)
+        image = array.array("H", live_camera.depth_images(log, self.types)[0])
+        row = slice(100 * 640, 101 * 640)
+
+        def is_corrected(plain):
+            # By 5 % of the depth at a viewing ray of 0.55, nothing in the middle.
+            return all(abs(after - round(before * (1 + 0.05 * (u - 319.5) / 550 / 0.55))) <= 1
+                       for u, (before, after) in enumerate(zip(plain[row], image[row])) if before)
+        self.assertTrue(any(is_corrected(array.array("H", plain)) for plain in self.simulated))
+
     def test_it_waits_for_a_camera_and_says_so_once(self):
         self.control("unplug")
         kinect = self.start()

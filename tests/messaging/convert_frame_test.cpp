@@ -53,6 +53,29 @@ TEST(ConvertFrame, EverythingButColorIsTheSameAfterTheWire) {
   EXPECT_NEAR(back.frame->color.rgb[0], 77, 2);
 }
 
+TEST(ConvertFrame, CorrectingAMessageIsCorrectingItsFrame) {
+  const geometry::RgbdFrame frame = some_frame();
+  const geometry::DepthCorrection correction(geometry::DepthCorrection::Terms::Constant(0.002));
+  rgbd_frame_t message = to_message(frame);
+  const std::vector<std::uint8_t> color = message.color.data;
+  correct_depth(message, correction);
+  const FrameResult back = to_frame(sent(message));
+  ASSERT_TRUE(back.frame) << to_string(back.fault);
+  EXPECT_EQ(back.frame->depth.millimetres,
+            geometry::corrected(frame, correction).depth.millimetres);
+  EXPECT_NE(back.frame->depth.millimetres, frame.depth.millimetres);
+  EXPECT_EQ(message.color.data, color);
+}
+
+TEST(ConvertFrame, AMessageThatCannotBeDecodedIsNotCorrected) {
+  rgbd_frame_t message = to_message(some_frame());
+  message.depth.data.resize(10);
+  const std::vector<std::uint8_t> before = encode(message);
+  correct_depth(message,
+                geometry::DepthCorrection(geometry::DepthCorrection::Terms::Constant(0.1)));
+  EXPECT_EQ(encode(message), before);
+}
+
 TEST(ConvertFrame, ReadyJpegBytesTravelUnchanged) {
   geometry::RgbdFrame frame = some_frame();
   const std::vector<std::uint8_t> jpeg = encode_jpeg(frame.color, 50);

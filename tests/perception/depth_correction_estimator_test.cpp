@@ -57,6 +57,31 @@ double relative_error(const geometry::DepthCorrection& found,
   return rms(geometry::DepthCorrection(found.coefficients() - truth.coefficients())) / rms(truth);
 }
 
+TEST(DepthCorrectionEstimator, WithoutViewsItIsAsUncertainAsThePriorAndLessWithEachPair) {
+  const CameraModel camera = testing::kinect_camera(7);
+  DepthCorrectionEstimator estimator;
+  // All terms are about 1 at the image's corner.
+  const DepthCorrectionConfig config;
+  const double prior =
+      std::sqrt(12.0 * std::pow(config.sigma, 2) + 2.0 * std::pow(config.linear_sigma, 2));
+  EXPECT_NEAR(estimator.largest_sigma(camera), prior, 0.1 * prior);
+  std::vector<SurfaceImage> views;
+  const std::vector<Isometry3d> poses = poses_around_the_room();
+  for (std::size_t i = 0; i < 12; ++i) {
+    views.emplace_back(testing::render(testing::small_room(), camera, poses[i]).frame, 0.4, 5.0);
+  }
+  const geometry::DepthCorrection none;
+  double before = estimator.largest_sigma(camera);
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    if (estimator.add({views[i - 1], poses[i - 1], none}, {views[i], poses[i], none}) == 0)
+      continue;
+    const double after = estimator.largest_sigma(camera);
+    EXPECT_LT(after, before);
+    before = after;
+  }
+  EXPECT_LT(before, 0.9 * prior);
+}
+
 TEST(DepthCorrectionEstimator, WithoutViewsThereIsNoCorrection) {
   EXPECT_TRUE(DepthCorrectionEstimator().estimate().is_none());
 }
