@@ -110,9 +110,10 @@ class CameraThread::State {
     if (camera.has_ended()) put(RecordingEnded{});
   }
 
-  void check(const std::array<Clock::duration, 2>& silence, const RgbdCamera& camera) const {
+  void check(const std::array<Clock::duration, 2>& silence, const RgbdCamera& camera) {
     const auto longest = std::max_element(silence.begin(), silence.end());
     if (*longest <= duration(config_.timeout) || camera.has_ended()) return;
+    note_call();  // it is closed now, which may hang too
     throw SourceError(fmt::format("{}: no whole {} image for {} s", camera.description().name,
                                   longest == silence.begin() ? "depth" : "colour",
                                   config_.timeout));

@@ -27,20 +27,17 @@ CameraThreadConfig thread_config(const KinectConfig& config, bool is_recording) 
   return result;
 }
 
-// What a calibration says counts more than what a camera says of itself.
-void use_known_intrinsics(const CameraFile& known, CameraDescription& description) {
-  const auto& depth = description.is_registered ? known.color : known.depth;
-  for (const auto& [from, to] :
-       {std::pair{&known.color, &description.color}, std::pair{&depth, &description.depth}}) {
-    if (!*from) continue;
-    if ((*from)->width != to->width || (*from)->height != to->height) {
-      throw messaging::FatalFault(fmt::format(
-          "the camera file is for {}x{}, the camera has {}x{}: change kinect.width and height, or "
-          "the file",
-          (*from)->width, (*from)->height, to->width, to->height));
-    }
-    *to = **from;
+void use_if_known(const std::optional<geometry::CameraModel>& known,
+                  geometry::CameraModel& camera) {
+  if (!known) return;
+  if (known->width != camera.width || known->height != camera.height) {
+    throw messaging::FatalFault(
+        fmt::format("the camera file is for {}x{}, the camera has {}x{}: change kinect.width and "
+                    "height, or the "
+                    "file",
+                    known->width, known->height, camera.width, camera.height));
   }
+  camera = *known;
 }
 
 }  // namespace
@@ -81,7 +78,10 @@ void KinectProcess::take(ImageArrived arrived) {
 
 void KinectProcess::take(CameraOpened opened) {
   description_ = std::move(opened.description);
-  use_known_intrinsics(source_.known, description_);
+  // What a calibration says counts more than what a camera says of itself.
+  use_if_known(source_.known.color, description_.color);
+  use_if_known(description_.is_registered ? source_.known.color : source_.known.depth,
+               description_.depth);
   state_ = State::kOpen;
   pairing_.clear();
   live_.health().count("camera.opened");

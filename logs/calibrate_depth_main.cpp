@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "drivers/camera_file.hpp"
@@ -13,16 +14,21 @@ namespace {
 
 using namespace geomap;
 
-// What the file says beside the correction stays.
-drivers::CameraFile updated(const std::filesystem::path& path,
-                            const logs::DepthCalibration& calibration) {
-  drivers::CameraFile file;
-  if (std::filesystem::exists(path)) {
-    file = drivers::read_camera_file(path);
-  } else {
-    file.name = path.stem().string();
-    file.depth = calibration.depth;
-    file.color = calibration.color;
+// What the file says beside the correction stays, where it fits.
+drivers::CameraFile updated(const std::string& path, const logs::DepthCalibration& calibration) {
+  if (!std::filesystem::exists(path)) {
+    return {std::filesystem::path(path).stem().string(), calibration.depth, calibration.color,
+            calibration.correction};
+  }
+  drivers::CameraFile file = drivers::read_camera_file(path);
+  const bool is_of_log = file.depth == calibration.depth || file.color == calibration.depth;
+  if ((file.depth || file.color) && !is_of_log) {
+    throw std::runtime_error(path + " has other intrinsics than the log's depth: they belong " +
+                             "together, so write to another file");
+  }
+  if (calibration.correction.is_none() && !file.correction.is_none()) {
+    throw std::runtime_error(path + " keeps its correction, as this log shows none: is its depth " +
+                             "corrected already? Else write to another file");
   }
   file.correction = calibration.correction;
   return file;

@@ -215,6 +215,7 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   }
   pictures.write(options.output / "pictures");
   report.log = options.log;
+  report.camera = options.camera;
   report.extractor = settings.extraction.choice.extractor;
   report.merge_mode = settings.merge.mode;
   report.git_revision = kGitRevision;

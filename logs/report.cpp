@@ -120,6 +120,7 @@ nlohmann::ordered_json to_json(const Report& report) {
   nlohmann::ordered_json json;
   const DataReduction& reduction = report.reduction;
   json["log"] = report.log;
+  if (!report.camera.empty()) json["camera"] = report.camera;
   json["extractor"] = report.extractor;
   json["merge"] = report.merge_mode;
   json["frames"] = report.frames;
@@ -182,6 +183,7 @@ std::string overview(const Report& report) {
   if (report.sequence_gaps > 0) {
     text += fmt::format("| frames missing by sequence number | {} |\n", report.sequence_gaps);
   }
+  if (!report.camera.empty()) text += fmt::format("| depth corrected by | {} |\n", report.camera);
   if (report.log_damaged) text += "| log | damaged or cut short; readable events were used |\n";
   text += fmt::format("| planes extracted | {} |\n", extracted);
   text += fmt::format("| features in the map | {} |\n", report.map.features.size());

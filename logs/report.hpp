@@ -27,6 +27,7 @@ struct DataReduction {
 /// @brief What a replay did; becomes report.json (stable keys) and report.md.
 struct Report {
   std::string log;
+  std::string camera;  // file whose depth correction the frames got; empty: none
   std::string extractor;
   std::string merge_mode;
   std::string git_revision;

@@ -175,5 +175,28 @@ TEST(CameraThread, ACallThatDoesNotReturnIsSeenAndDoesNotKeepTheProgram) {
   *hangs = false;
 }
 
+TEST(CameraThread, ASilentCameraThatCannotBeClosedIsSeen) {
+  class Stuck : public FakeCamera {
+   public:
+    explicit Stuck(std::shared_ptr<std::atomic<bool>> hangs)
+        : FakeCamera(nothing, -1), hangs_(std::move(hangs)) {}
+    ~Stuck() override {
+      while (*hangs_) std::this_thread::sleep_for(milliseconds(1));
+    }
+
+   private:
+    std::shared_ptr<std::atomic<bool>> hangs_;
+  };
+  const auto hangs = std::make_shared<std::atomic<bool>>(true);
+  CameraThread thread([hangs] { return std::make_unique<Stuck>(hangs); }, kQuick);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (thread.seconds_in_call() < 0.3 && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  EXPECT_GE(thread.seconds_in_call(), 0.3);
+  *hangs = false;
+  EXPECT_TRUE(next<CameraLost>(thread));
+}
+
 }  // namespace
 }  // namespace geomap::drivers

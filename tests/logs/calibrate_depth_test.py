@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""geomap-calibrate-depth on a simulated Kitchen: what it writes makes the map better.
+"""geomap-calibrate-depth on a simulated kitchen: what it writes makes the map better.
 
 usage: calibrate_depth_test.py FOLDER_OF_PROGRAMS [unittest arguments]
 """
@@ -50,6 +50,8 @@ class CalibrateDepth(unittest.TestCase):
         done = run("geomap-calibrate-depth", other, "-o", camera)
         self.assertIn("depth_correction", done.stdout)
         before, after = self.rms_p(self.distorted), self.rms_p(self.distorted, "--camera", camera)
+        report = json.loads((self.folder / "out" / "report.json").read_text())
+        self.assertEqual(report["camera"], str(camera))
         self.assertLess(after, 0.25 * before)
 
     def test_a_camera_without_distortion_gets_no_correction(self):
@@ -61,11 +63,30 @@ class CalibrateDepth(unittest.TestCase):
 
     def test_of_a_file_that_exists_only_the_correction_changes(self):
         camera = self.folder / "mine.yaml"
-        color = "color: {width: 640, height: 480, fx: 517.25, fy: 516.5, cx: 318.5, cy: 255.25}"
-        camera.write_text(f"name: mine\n{color}\n")
         run("geomap-calibrate-depth", self.distorted, "-o", camera)
-        self.assertIn(color, camera.read_text())
-        self.assertIn("depth_correction: [", camera.read_text())
+        name, depth, color, *correction = camera.read_text().splitlines(keepends=True)
+        self.assertEqual(name, "name: mine\n")
+        self.assertIn("depth_correction: [", "".join(correction))
+        camera.write_text("name: the one in front\n" + color)
+        run("geomap-calibrate-depth", self.distorted, "-o", camera)
+        self.assertEqual(camera.read_text(), "name: the one in front\n" + color + "".join(correction))
+
+    def test_a_correction_is_not_lost_to_a_log_that_is_corrected_already(self):
+        straight = simulate(self.folder / "corrected.lcmlog", "--distortion", 0)
+        camera = self.folder / "good.yaml"
+        run("geomap-calibrate-depth", self.distorted, "-o", camera)
+        good = camera.read_text()
+        done = run("geomap-calibrate-depth", straight, "-o", camera, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("keeps its correction", done.stderr)
+        self.assertEqual(camera.read_text(), good)
+
+    def test_a_correction_is_not_written_beside_other_intrinsics(self):
+        camera = self.folder / "other.yaml"
+        camera.write_text("name: x\ndepth: {width: 640, height: 480, fx: 500, fy: 500, cx: 320, cy: 240}\n")
+        done = run("geomap-calibrate-depth", self.distorted, "-o", camera, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("has other intrinsics", done.stderr)
 
     def test_a_log_that_shows_too_little_is_refused_and_nothing_is_lost(self):
         short = self.folder / "short.lcmlog"
