@@ -29,8 +29,6 @@ def make_camera(folder, driver, types):
     (drivers / "libVirtualCamera.so.0").symlink_to(driver)
     os.environ["LD_LIBRARY_PATH"] = str(folder / "openni2")
     os.environ["GEOMAP_VIRTUAL_CAMERA"] = str(folder)
-    # OpenNI2's drivers lose memory and are unloaded: a sanitizer knows no name to suppress it by.
-    os.environ["ASAN_OPTIONS"] = "detect_leaks=0"
     depths = live_camera.simulated_depth(PROGRAMS, folder, types)
     (folder / "depth.raw").write_bytes(b"".join(depths))
     return depths
