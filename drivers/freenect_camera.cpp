@@ -55,7 +55,8 @@ class Device {
     int number = 0;
     const auto parsed = std::from_chars(name.data(), name.data() + name.size(), number);
     const bool is_number =
-        name.empty() || (parsed.ptr == name.data() + name.size() && number < context.devices());
+        name.empty() || (parsed.ec == std::errc() && parsed.ptr == name.data() + name.size() &&
+                         number >= 0 && number < context.devices());
     const int result =
         is_number ? freenect_open_device(context.handle(), &device_, number)
                   : freenect_open_device_by_camera_serial(context.handle(), &device_, name.c_str());
@@ -156,6 +157,9 @@ class FreenectCamera : public RgbdCamera {
     freenect_raw_tilt_state* state = freenect_get_tilt_state(device_.handle());
     double left = 0.0, up = 0.0, forward = 0.0;
     freenect_get_mks_accel(state, &left, &up, &forward);
+    // Nothing was read: later models have their motor elsewhere, and the library says that all is
+    // well.
+    if (left == 0.0 && up == 0.0 && forward == 0.0) return std::nullopt;
     return CameraAttitude{{-left, -up, forward}, geometry::radians(freenect_get_tilt_degs(state))};
   }
 
