@@ -99,7 +99,8 @@ class CameraThread::State {
       std::optional<CameraImage> image = camera.read(kPatience);
       const Clock::duration waited = Clock::now() - before;
       for (Clock::duration& kind : silence) kind += waited;
-      note_losses(camera.losses(), std::exchange(known, camera.losses()));
+      const CameraLosses losses = camera.losses();
+      note_losses(losses - std::exchange(known, losses));
       if (image) {
         silence.at(image->image.index()) = {};
         put(ImageArrived{std::move(*image), std::chrono::system_clock::now()});
@@ -142,10 +143,9 @@ class CameraThread::State {
     std::lock_guard lock(mutex_);
     call_since_ = Clock::now();
   }
-  void note_losses(const CameraLosses& now, const CameraLosses& before) {
+  void note_losses(const CameraLosses& more) {
     std::lock_guard lock(mutex_);
-    losses_.torn += now.torn - before.torn;
-    losses_.missed += now.missed - before.missed;
+    losses_ = losses_ + more;
   }
   bool is_stopped() const {
     std::lock_guard lock(mutex_);

@@ -8,13 +8,13 @@
 
 #include "drivers/frame_source.hpp"
 #include "drivers/kinect_disparity.hpp"
+#include "drivers/tick_clock.hpp"
 
 namespace geomap::drivers {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
 constexpr double kCountsPerG = 819.0;  // of the accelerometer
-constexpr std::int64_t kTicksPerMicrosecond = 60;
 
 void append(std::string& bytes, std::uint16_t value) {
   bytes.push_back(static_cast<char>(value & 0xff));

@@ -103,7 +103,7 @@ freenect_led_options led_of(const std::string& name) {
 class FreenectCamera : public RgbdCamera {
  public:
   FreenectCamera(const FreenectOptions& options, const KinectConfig& config)
-      : device_(context_, options.device), led_(config.led) {
+      : device_(context_, options.device) {
     if (config.width != 640 || config.height != 480 || config.rate != 30) {
       throw SourceError(fmt::format("a Kinect has no mode {}x{} at {}; it has 640x480 at 30",
                                     config.width, config.height, config.rate));
@@ -127,7 +127,7 @@ class FreenectCamera : public RgbdCamera {
           "the Kinect refuses its colour mode");
     check(freenect_start_depth(device_.handle()), "cannot start depth");
     check(freenect_start_video(device_.handle()), "cannot start colour");
-    freenect_set_led(device_.handle(), led_of(led_));
+    freenect_set_led(device_.handle(), led_of(config.led));
     if (options.tilt) {
       freenect_set_tilt_degs(device_.handle(), geometry::degrees(*options.tilt));
     }
@@ -194,7 +194,6 @@ class FreenectCamera : public RgbdCamera {
 
   Context context_;
   Device device_;
-  std::string led_;
   freenect_depth_format format_ = FREENECT_DEPTH_MM;
   CameraDescription description_;
   std::deque<CameraImage> images_;

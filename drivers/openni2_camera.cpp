@@ -112,10 +112,7 @@ class OpenNi2Camera : public RgbdCamera {
   }
 
   const CameraDescription& description() const override { return description_; }
-  CameraLosses losses() const override {
-    const CameraLosses &depth = depth_->losses(), &color = color_->losses();
-    return {depth.torn + color.torn, depth.missed + color.missed};
-  }
+  CameraLosses losses() const override { return depth_->losses() + color_->losses(); }
 
   std::optional<CameraImage> read(std::chrono::milliseconds patience) override {
     if (unplug_->is_unplugged()) throw SourceError(description_.name + " was unplugged");

@@ -51,8 +51,7 @@ class OpenNi2Recording : public RgbdCamera {
   const CameraDescription& description() const override { return description_; }
   bool has_ended() const override { return depth_.has_ended() && color_.has_ended(); }
   CameraLosses losses() const override {
-    const CameraLosses &depth = depth_.stream().losses(), &color = color_.stream().losses();
-    return {depth.torn + color.torn, depth.missed + color.missed};
+    return depth_.stream().losses() + color_.stream().losses();
   }
 
   std::optional<CameraImage> read(std::chrono::milliseconds patience) override {

@@ -39,6 +39,13 @@ struct CameraAttitude {
 struct CameraLosses {
   std::int64_t torn = 0;    // refused: less data than their size needs
   std::int64_t missed = 0;  // numbers that were skipped, where the camera numbers its images
+
+  CameraLosses operator+(const CameraLosses& other) const {
+    return {torn + other.torn, missed + other.missed};
+  }
+  CameraLosses operator-(const CameraLosses& other) const {
+    return {torn - other.torn, missed - other.missed};
+  }
 };
 
 /// @brief A camera that is open; it is closed with this object.
