@@ -19,8 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPatience{50};      // of one call
-constexpr std::chrono::seconds kLeave{3};  // for a camera to close
+constexpr milliseconds kPatience{50};  // of one call
 
 Clock::duration duration(double seconds) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -60,7 +59,7 @@ class CameraThread::State {
   }
   bool wait_until_left() {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, kLeave, [this] { return has_left_; });
+    return changed_.wait_for(lock, duration(config_.leave), [this] { return has_left_; });
   }
 
   std::optional<CameraEvent> take(milliseconds patience) {
@@ -172,13 +171,18 @@ CameraThread::CameraThread(Open open, const CameraThreadConfig& config)
     : state_(std::make_shared<State>(std::move(open), config)),
       thread_([state = state_] { state->run(); }) {}
 
-CameraThread::~CameraThread() {
+CameraThread::~CameraThread() { close(); }
+
+bool CameraThread::close() {
+  if (!thread_.joinable()) return true;
   state_->stop();
-  if (state_->wait_until_left()) {
+  const bool has_left = state_->wait_until_left();
+  if (has_left) {
     thread_.join();
   } else {
     thread_.detach();
   }
+  return has_left;
 }
 
 std::optional<CameraEvent> CameraThread::take(milliseconds patience) {

@@ -19,6 +19,7 @@ struct CameraThreadConfig {
   double retry = 0.5;    // between two tries to open it [s]
   bool is_recording = false;  // ends; is not opened again; every image counts
   std::size_t capacity = 32;  // images that wait
+  double leave = 3.0;         // for the camera to close at the end [s]
 };
 
 /// @brief An image, and when it came.
@@ -48,10 +49,14 @@ class CameraThread {
   using Open = std::function<std::unique_ptr<RgbdCamera>()>;
 
   CameraThread(Open open, const CameraThreadConfig& config);
-  /// @brief Closes the camera. A thread that its library keeps is left behind after three seconds.
+  /// @brief As close().
   ~CameraThread();
   CameraThread(const CameraThread&) = delete;
   CameraThread& operator=(const CameraThread&) = delete;
+
+  /// @brief Closes the camera. A thread that its library keeps for longer than `leave` is left
+  /// behind. @return false then.
+  bool close();
 
   /// @brief What happened next, or nothing within `patience`. Of a recording no image is lost; of a
   /// camera the oldest are when too many wait.

@@ -45,11 +45,12 @@ int main(int argc, char** argv) {
         const drivers::CameraSource source{
             .open = drivers::camera_opener(camera, config),
             .is_recording = camera.is_playback(),
+            .is_recorded = !camera.recording.empty(),
             .keeps_sensor_time = camera.is_playback() && camera.lossless,
             .known = camera_file.empty() ? drivers::CameraFile()
                                          : drivers::read_camera_file(camera_file)};
         messaging::LiveProcess live("geomap-kinect", common, live_options);
         drivers::KinectProcess process(config, source, live);
-        return live.run([] {}, [&] { return process.summary(); });
+        return live.run([&] { process.finish(); }, [&] { return process.summary(); });
       });
 }

@@ -19,11 +19,14 @@ namespace {
 constexpr std::chrono::milliseconds kPatience{50};  // between two looks at the bus
 // Firmware is loaded within; whoever supervises the process starts it again [s].
 constexpr double kLongestCall = 15.0;
+// Images that wait to be written are written first, which takes a busy machine a while [s].
+constexpr double kFinishRecording = 60.0;
 
-CameraThreadConfig thread_config(const KinectConfig& config, bool is_recording) {
+CameraThreadConfig thread_config(const KinectConfig& config, const CameraSource& source) {
   CameraThreadConfig result;
   result.timeout = config.timeout;
-  result.is_recording = is_recording;
+  result.is_recording = source.is_recording;
+  if (source.is_recorded) result.leave = kFinishRecording;
   return result;
 }
 
@@ -51,11 +54,18 @@ KinectProcess::KinectProcess(const KinectConfig& config, CameraSource source,
   live_.every(0.0, [this] { step(); });
 }
 
+void KinectProcess::finish() {
+  const bool is_closed = !camera_ || camera_->close();
+  if (is_closed || !source_.is_recorded) return;
+  throw messaging::FatalFault(fmt::format(
+      "the recording is cut off: it could not be finished within {:.0f} s", kFinishRecording));
+}
+
 std::string KinectProcess::summary() const { return fmt::format("frames {}\n", sequence_); }
 
 // The camera is not touched before another copy of the process has had time to object.
 void KinectProcess::step() {
-  if (!camera_) camera_.emplace(source_.open, thread_config(config_, source_.is_recording));
+  if (!camera_) camera_.emplace(source_.open, thread_config(config_, source_));
   if (camera_->seconds_in_call() > kLongestCall) {
     throw messaging::FatalFault(fmt::format(
         "the camera's library has not returned for {:.0f} s; the camera may need to be plugged in "

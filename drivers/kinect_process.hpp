@@ -18,6 +18,7 @@ namespace geomap::drivers {
 struct CameraSource {
   CameraThread::Open open;
   bool is_recording = false;       // ends
+  bool is_recorded = false;        // into a file, which is only whole once the camera is closed
   bool keeps_sensor_time = false;  // as utime, so that a recording always gives the same
   CameraFile known;                // of the camera: intrinsics, depth correction
 };
@@ -28,6 +29,9 @@ class KinectProcess {
  public:
   KinectProcess(const KinectConfig& config, CameraSource source, messaging::LiveProcess& live);
 
+  /// @brief Closes the camera, after the last image that counts.
+  /// @throws messaging::FatalFault when that leaves a recording unfinished.
+  void finish();
   std::string summary() const;
 
  private:

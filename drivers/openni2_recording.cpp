@@ -23,6 +23,7 @@ class RecordedStream {
     playback->setRepeatEnabled(false);
     playback->setSpeed(lossless ? kWhenAsked : kAtItsOwnPace);
     images_ = playback->getNumberOfFrames(stream_->handle());
+    if (images_ < 1) throw SourceError("cannot play " + uri + ": it holds no images of one kind");
     stream_->start();
   }
 

@@ -152,6 +152,34 @@ TEST(CameraThread, ARecordingThatCannotBePlayedIsNotTriedAgain) {
   EXPECT_EQ(tries, 1);
 }
 
+/// Needs a while to close, as one that finishes a recording does.
+class SlowToClose : public FakeCamera {
+ public:
+  explicit SlowToClose(std::shared_ptr<std::atomic<bool>> is_closed)
+      : FakeCamera(nothing, -1), is_closed_(std::move(is_closed)) {}
+  ~SlowToClose() override {
+    std::this_thread::sleep_for(milliseconds(300));
+    *is_closed_ = true;
+  }
+
+ private:
+  std::shared_ptr<std::atomic<bool>> is_closed_;
+};
+
+TEST(CameraThread, ACameraThatIsSlowToCloseIsWaitedForOrSaidToBeLeftBehind) {
+  for (const double leave : {10.0, 0.01}) {
+    CameraThreadConfig config = kQuick;
+    config.timeout = 10.0;
+    config.leave = leave;
+    const auto is_closed = std::make_shared<std::atomic<bool>>(false);
+    CameraThread thread([=] { return std::make_unique<SlowToClose>(is_closed); }, config);
+    ASSERT_TRUE(next<CameraOpened>(thread));
+    EXPECT_EQ(thread.close(), leave > 1.0);
+    EXPECT_EQ(*is_closed, leave > 1.0);
+    while (!*is_closed) std::this_thread::sleep_for(milliseconds(1));
+  }
+}
+
 TEST(CameraThread, LossesOfAllCamerasAddUp) {
   CameraThread thread(open_fake(nothing), kQuick);
   next<CameraLost>(thread);
