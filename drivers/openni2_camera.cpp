@@ -111,6 +111,17 @@ class OpenNi2Camera : public RgbdCamera {
     color_->start();
   }
 
+  // OpenNI2 detaches a recorder under a lock that a thread with an image may wait for, while it
+  // holds one that detaching needs: no image may be on its way then, or neither of them ever goes
+  // on.
+  ~OpenNi2Camera() override {
+    recorder_.stop();
+    depth_->stop();
+    color_->stop();
+  }
+  OpenNi2Camera(const OpenNi2Camera&) = delete;
+  OpenNi2Camera& operator=(const OpenNi2Camera&) = delete;
+
   const CameraDescription& description() const override { return description_; }
   CameraLosses losses() const override { return depth_->losses() + color_->losses(); }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
 #include <filesystem>
 #include <optional>
+#include <thread>
 
 #include "drivers/frame_source.hpp"
 #include "drivers/openni2_camera.hpp"
@@ -12,6 +14,7 @@ namespace {
 constexpr float kAtItsOwnPace = 1.0F, kWhenAsked = -1.0F;  // OpenNI2's speeds
 // When asked twice for the same image, OpenNI2 reads two: a short wait would lose some [ms].
 constexpr int kLongWait = 1000;
+constexpr std::chrono::milliseconds kPlayerSleeps{15};  // while its streams are stopped
 
 /// One stream of a recording.
 class RecordedStream {
@@ -26,6 +29,16 @@ class RecordedStream {
     if (images_ < 1) throw SourceError("cannot play " + uri + ": it holds no images of one kind");
     stream_->start();
   }
+
+  // The player's thread looks at its list of streams without a lock, at the file's end all the
+  // time. Once the stream is stopped it does so every 10 ms, and the stream can be taken off the
+  // list.
+  ~RecordedStream() {
+    stream_->stop();
+    std::this_thread::sleep_for(kPlayerSleeps);
+  }
+  RecordedStream(const RecordedStream&) = delete;
+  RecordedStream& operator=(const RecordedStream&) = delete;
 
   const openni::Device& device() const { return device_; }
   OpenNi2Stream& stream() { return *stream_; }

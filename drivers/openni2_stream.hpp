@@ -35,6 +35,7 @@ class OpenNi2Stream {
   /// @brief The camera of its images, from the field of view.
   geometry::CameraModel camera() const;
   void start();
+  void stop() { stream_.stop(); }
 
   /// @brief Reads the image that is there, or waits for one. @return nothing for half an image.
   std::optional<CameraImage> read();
