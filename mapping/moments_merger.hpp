@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "mapping/clip_memo.hpp"
 #include "mapping/merger.hpp"
 
 namespace geomap::mapping {
@@ -12,9 +13,11 @@ class MomentsMerger : public Merger {
  public:
   explicit MomentsMerger(const MergeConfig& config) : config_(config) {}
   std::int64_t insert(MapFeature feature, FeatureStore& store) const override;
+  MapFeature merge(const MapFeature& older, const MapFeature& younger) const override;
 
  private:
   MergeConfig config_;
+  mutable ClipMemo memo_;
 };
 
 }  // namespace geomap::mapping

@@ -40,17 +40,6 @@ double height_at(const Plane& plane, const Eigen::Vector2d& at) {
   return -(plane.normal.head<2>().dot(at) + plane.d) / plane.normal.z();
 }
 
-// Rms over an area of the distance between two planes, both given in the area's frame: the
-// difference of their heights is linear, so the area's moments up to the second give it exactly.
-double rms_distance(const Plane& a, const Plane& b, const geometry::AreaMoments& over) {
-  const auto slope = [](const Plane& plane) -> Eigen::Vector2d {
-    return -plane.normal.head<2>() / plane.normal.z();
-  };
-  const double offset = height_at(a, over.centroid) - height_at(b, over.centroid);
-  const Eigen::Vector2d turn = slope(a) - slope(b);
-  return a.normal.z() * std::sqrt(offset * offset + turn.dot(over.covariance * turn));
-}
-
 // Least overlap [m²] of two features: a share of the smaller one, or a common border: half as long
 // as its side when half the gap tolerance lies between them, shorter when they touch.
 double least_overlap(double smaller, const MergeConfig& config) {
@@ -111,8 +100,24 @@ double largest_distance(double view_a, double view_b, const MergeConfig& config)
 
 }  // namespace
 
+// The difference of their heights is linear, so the area's moments up to the second give it
+// exactly.
+double rms_distance(const Plane& a, const Plane& b, const geometry::AreaMoments& over) {
+  const auto slope = [](const Plane& plane) -> Eigen::Vector2d {
+    return -plane.normal.head<2>() / plane.normal.z();
+  };
+  const double offset = height_at(a, over.centroid) - height_at(b, over.centroid);
+  const Eigen::Vector2d turn = slope(a) - slope(b);
+  return a.normal.z() * std::sqrt(offset * offset + turn.dot(over.covariance * turn));
+}
+
+double merging_reach(const MapFeature& a, const MapFeature& b, const MergeConfig& config) {
+  return largest_distance(view_variance(a.moments, config), view_variance(b.moments, config),
+                          config);
+}
+
 Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& config,
-                   double overlap_to_beat) {
+                   ClipMemo& memo, double overlap_to_beat) {
   Similarity result;
   const Plane& plane_a = a.surface.plane;
   const Plane& plane_b = b.surface.plane;
@@ -153,13 +158,10 @@ Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& 
     return result;
   }
 
-  result.b_in_a = b.surface.in_frame(frame);
+  result.b_in_a = memo.in_frame(b.surface, frame);
   const double area_a = geometry::area(a.surface.polygon);
   const double area_b = geometry::area(result.b_in_a);
-  const geometry::AreaMoments overlap = geometry::area_moments(
-      area_a < area_b
-          ? geometry::intersect(geometry::offset(a.surface.polygon, config.gap), result.b_in_a)
-          : geometry::intersect(a.surface.polygon, geometry::offset(result.b_in_a, config.gap)));
+  const geometry::AreaMoments overlap = memo.overlap(a.surface.polygon, result.b_in_a, config.gap);
   result.overlap = overlap.area;
   if (overlap.area < least_overlap(std::min(area_a, area_b), config)) {
     result.difference = Difference::kOverlap;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/polygon.hpp"
+#include "mapping/clip_memo.hpp"
 #include "mapping/map_feature.hpp"
 #include "mapping/merge_config.hpp"
 
@@ -34,6 +35,14 @@ struct Similarity {
 /// @param overlap_to_beat [m²] pairs whose boxes tell that they overlap by less are kOverlap
 /// without a closer look.
 Similarity compare(const MapFeature& a, const MapFeature& b, const MergeConfig& config,
-                   double overlap_to_beat = 0.0);
+                   ClipMemo& memo, double overlap_to_beat = 0.0);
+
+/// @brief The largest distance [m] between the planes of two views at which they may be one
+/// surface, however uncertain their fits are.
+double merging_reach(const MapFeature& a, const MapFeature& b, const MergeConfig& config);
+
+/// @brief Rms over an area of the distance [m] between two planes, both given in the area's frame.
+double rms_distance(const geometry::Plane& a, const geometry::Plane& b,
+                    const geometry::AreaMoments& over);
 
 }  // namespace geomap::mapping

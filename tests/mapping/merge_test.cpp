@@ -36,14 +36,20 @@ Rectangle tilted(Rectangle rectangle, double angle) {
   return rectangle;
 }
 
+Similarity compare_once(const MapFeature& a, const MapFeature& b, const MergeConfig& config) {
+  ClipMemo memo;
+  return compare(a, b, config, memo);
+}
+
 TEST(PlaneSimilarity, DistanceIsTheRmsOverTheOverlapInClosedForm) {
   // A plane turned by angle a about the middle of a square of side s: heights are uniform in
   // +-s/2 tan a, whose rms is s tan(a) / sqrt(12).
   const double angle = 0.02;
   MergeConfig config;
   config.gap = 0.0;
-  const Similarity s = compare(feature_of_rectangle(floor_at({0, 0, 0})),
-                               feature_of_rectangle(tilted(floor_at({0, 0, 0}), angle)), config);
+  const Similarity s =
+      compare_once(feature_of_rectangle(floor_at({0, 0, 0})),
+                   feature_of_rectangle(tilted(floor_at({0, 0, 0}), angle)), config);
   EXPECT_EQ(s.difference, Difference::kNone);
   EXPECT_NEAR(s.angle, angle, 1e-6);
   EXPECT_NEAR(s.distance, std::tan(angle) / std::sqrt(12.0), 2e-5);
@@ -54,13 +60,13 @@ TEST(PlaneSimilarity, NamesTheFirstConditionThatFails) {
   const MapFeature a = feature_of_rectangle(floor_at({0, 0, 0}));
   const MergeConfig config;
   const auto difference = [&](const Rectangle& r) {
-    return compare(a, feature_of_rectangle(r), config).difference;
+    return compare_once(a, feature_of_rectangle(r), config).difference;
   };
   EXPECT_EQ(difference(tilted(floor_at({0, 0, 0}), 0.3)), Difference::kAngle);
   EXPECT_EQ(difference(floor_at({2, 0, 0})), Difference::kOverlap);
   EXPECT_EQ(difference(floor_at({0, 0, 0.09})), Difference::kDistance);
   const Eigen::Isometry3d below = testing::look_at({0, -1, -3}, {0, 0, 0});
-  EXPECT_EQ(compare(a, feature_of_rectangle(floor_at({0, 0, 0}), 2, below), config).difference,
+  EXPECT_EQ(compare_once(a, feature_of_rectangle(floor_at({0, 0, 0}), 2, below), config).difference,
             Difference::kSide);
 }
 
@@ -74,9 +80,9 @@ TEST(PlaneSimilarity, DoesNotDependOnWhereTheWorldIs) {
   far_view->T_world_camera = far * near_view->T_world_camera;
   const MergeConfig config;
   const Similarity near_by =
-      compare(*feature_of(*near_view, 0, config), *feature_of(*near_view, 1, config), config);
+      compare_once(*feature_of(*near_view, 0, config), *feature_of(*near_view, 1, config), config);
   const Similarity far_away =
-      compare(*feature_of(*far_view, 0, config), *feature_of(*far_view, 1, config), config);
+      compare_once(*feature_of(*far_view, 0, config), *feature_of(*far_view, 1, config), config);
   EXPECT_EQ(near_by.difference, far_away.difference);
   EXPECT_NEAR(near_by.angle, far_away.angle, 1e-9);
   EXPECT_NEAR(near_by.distance, far_away.distance, 1e-6);
