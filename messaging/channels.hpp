@@ -31,7 +31,9 @@ inline constexpr const char* kMapDelta = "MAP_DELTA";           // geomap.map_de
 inline constexpr const char* kMapSnapshot = "MAP_SNAPSHOT";     // geomap.map_t
 inline constexpr const char* kMapEdit = "MAP_EDIT";             // geomap.map_edit_t
 inline constexpr const char* kMapEditReply = "MAP_EDIT_REPLY";  // geomap.map_edit_reply_t
-inline constexpr const char* kMapRequest = "MAP_REQUEST";       // geomap.map_request_t
+inline constexpr const char* kMapEditRecord =
+    "MAP_EDIT_RECORD";  // geomap.map_edit_record_t: the history of edits
+inline constexpr const char* kMapRequest = "MAP_REQUEST";  // geomap.map_request_t
 
 // Files: the exact state of a map, and the journal of its events.
 inline constexpr const char* kMapState = "MAP_STATE";  // geomap.map_state_t

@@ -81,6 +81,11 @@ void OptionParser::positionals(const std::string& name, std::vector<std::string>
   app_.add_option(name, values, help)->required()->type_name("");
 }
 
+void OptionParser::optional_positionals(const std::string& name, std::vector<std::string>& values,
+                                        const std::string& help) {
+  app_.add_option(name, values, help)->type_name("");
+}
+
 void OptionParser::optional_positional(const std::string& name, std::string& value,
                                        const std::string& help) {
   app_.add_option(name, value, help)->type_name("");

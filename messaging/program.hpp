@@ -30,6 +30,9 @@ class OptionParser {
   /// @brief One or more arguments without a name; must be declared last.
   void positionals(const std::string& name, std::vector<std::string>& values,
                    const std::string& help);
+  /// @brief Any number of them, also none; must be declared last.
+  void optional_positionals(const std::string& name, std::vector<std::string>& values,
+                            const std::string& help);
   void optional_positional(const std::string& name, std::string& value, const std::string& help);
 
   /// @brief A named option with a value, for example "-o,--output". The default is shown in the

@@ -25,19 +25,13 @@ constexpr double kUnitTolerance = 1e-6;
 /// What a message of a type may need at most [byte].
 std::size_t largest_size(const MessageSchema& schema) {
   static const std::map<std::string, std::size_t> kLarge = {
-      {"bot_core.image_t", 64 * kMebibyte},
-      {"bot_core.images_t", 64 * kMebibyte},
-      {"kinect.frame_msg_t", 64 * kMebibyte},
-      {"kinect.image_msg_t", 64 * kMebibyte},
-      {"kinect.depth_msg_t", 64 * kMebibyte},
-      {"geomap.rgbd_frame_t", 64 * kMebibyte},
-      {"geomap.keyframe_t", 64 * kMebibyte},
-      {"geomap.point_map_update_t", 256 * kMebibyte},
-      {"geomap.plane_set_t", 8 * kMebibyte},
-      {"geomap.map_event_t", 8 * kMebibyte},
-      {"geomap.keyframe_update_t", 16 * kMebibyte},
-      {"geomap.map_delta_t", 32 * kMebibyte},
-      {"geomap.map_t", 32 * kMebibyte},
+      {"bot_core.image_t", 64 * kMebibyte},        {"bot_core.images_t", 64 * kMebibyte},
+      {"kinect.frame_msg_t", 64 * kMebibyte},      {"kinect.image_msg_t", 64 * kMebibyte},
+      {"kinect.depth_msg_t", 64 * kMebibyte},      {"geomap.rgbd_frame_t", 64 * kMebibyte},
+      {"geomap.keyframe_t", 64 * kMebibyte},       {"geomap.point_map_update_t", 256 * kMebibyte},
+      {"geomap.plane_set_t", 8 * kMebibyte},       {"geomap.map_event_t", 64 * kMebibyte},
+      {"geomap.map_edit_record_t", 8 * kMebibyte}, {"geomap.keyframe_update_t", 16 * kMebibyte},
+      {"geomap.map_delta_t", 32 * kMebibyte},      {"geomap.map_t", 32 * kMebibyte},
       {"geomap.map_state_t", 1024 * kMebibyte},
   };
   const auto found = kLarge.find(schema.name);
