@@ -78,7 +78,7 @@ GeometricMap EventJournal::open(const MergeConfig& merge, const HistoryConfig& h
   }
   recovery_ +=
       fmt::format("; the map has {} features of {} key frames, map_hash {}", map.features().size(),
-                  map.history().keyframes().size(), map_hash(map.features()));
+                  map.history().keyframes().size(), map_hash(map.features(), map.vetoes()));
   return map;
 }
 

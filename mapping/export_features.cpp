@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace geomap::mapping {
 namespace {
@@ -19,21 +18,6 @@ constexpr std::array<Rgb, 10> kPalette = {{{78, 121, 167},
                                            {156, 117, 95},
                                            {255, 157, 167},
                                            {134, 142, 150}}};
-
-constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
-
-// U+FFFE and U+FFFF are valid in UTF-8, but not characters of XML.
-bool is_noncharacter(std::string_view text, std::size_t i) {
-  const std::string_view bytes = text.substr(i, 3);
-  return bytes == "\xEF\xBF\xBE" || bytes == "\xEF\xBF\xBF";
-}
-
-std::string valid_utf8(std::string_view text) {
-  using nlohmann::json;
-  const std::string quoted =
-      json(std::string(text)).dump(-1, ' ', false, json::error_handler_t::replace);
-  return json::parse(quoted).get<std::string>();
-}
 
 }  // namespace
 
@@ -53,21 +37,6 @@ Rgb display_color(const MapFeature& feature, std::size_t index) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
   };
   return {byte(mean[0]), byte(mean[1]), byte(mean[2])};
-}
-
-std::string clean_text(std::string_view text) {
-  const std::string valid = valid_utf8(text);
-  std::string clean;
-  for (std::size_t i = 0; i < valid.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(valid[i]);
-    if (is_noncharacter(valid, i)) {
-      clean += kReplacement;
-      i += 2;
-    } else {
-      clean += byte < 0x20 || byte == 0x7F ? ' ' : valid[i];
-    }
-  }
-  return clean;
 }
 
 }  // namespace geomap::mapping

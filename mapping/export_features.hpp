@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mapping/clean_text.hpp"
 #include "mapping/map_feature.hpp"
 
 namespace geomap::mapping {
@@ -23,9 +24,5 @@ std::vector<const MapFeature*> sorted_by_id(std::span<const MapFeature> features
 /// @brief The feature's mean colour, or one of a palette, by index, when it was seen without
 /// colour.
 Rgb display_color(const MapFeature& feature, std::size_t index);
-
-/// @brief An operator's text made fit for a file: valid UTF-8 (what is not becomes U+FFFD), and
-/// blanks instead of control characters, which XML forbids and which break lines of text formats.
-std::string clean_text(std::string_view text);
 
 }  // namespace geomap::mapping

@@ -43,7 +43,16 @@ Json feature_json(const MapFeature& feature) {
           {"sigma_angle", feature.sigma_angle},
           {"sigma_d", feature.sigma_d},
           {"color", feature.color},
+          {"held", feature.is_held()},
           {"polygons", polygons_json(surface)}};
+}
+
+// A surface that no observation fills.
+Json veto_json(const Veto& veto) {
+  return {{"edit", veto.edit},
+          {"held", veto.cause != VetoCause::kDeleted},
+          {"feature", to_string(veto.feature.id)},
+          {"polygons", polygons_json(veto.feature.surface)}};
 }
 
 }  // namespace
@@ -54,6 +63,12 @@ std::string to_map_json(const MapSnapshot& map) {
   const char* separator = "\n";
   for (const MapFeature* feature : sorted_by_id(map.features)) {
     text += separator + feature_json(*feature).dump();
+    separator = ",\n";
+  }
+  text += "\n], \"vetoes\": [";
+  separator = "\n";
+  for (const Veto& veto : map.vetoes) {
+    text += separator + veto_json(veto).dump();
     separator = ",\n";
   }
   return text + "\n]}\n";

@@ -42,6 +42,7 @@ Eigen::AlignedBox2d view_box(const SvgPanel& panel,
                              const std::optional<Eigen::AlignedBox3d>& extent) {
   Eigen::AlignedBox2d box;
   for (const ProjectedFeature& feature : panel.features) box.extend(feature.box);
+  for (const ProjectedFeature& deleted : panel.deleted) box.extend(deleted.box);
   if (extent.has_value() && !extent->isEmpty()) {
     for (int corner = 0; corner < 8; ++corner) {
       box.extend(
@@ -52,8 +53,16 @@ Eigen::AlignedBox2d view_box(const SvgPanel& panel,
   return {box.center() - half, box.center() + half};
 }
 
-std::vector<SvgPanel> make_panels(const MapSnapshot& map, const SvgOptions& options,
-                                  double heading) {
+std::vector<MapFeature> deleted_of(const MapSnapshot& map) {
+  std::vector<MapFeature> deleted;
+  for (const Veto& veto : map.vetoes) {
+    if (veto.cause == VetoCause::kDeleted) deleted.push_back(veto.feature);
+  }
+  return deleted;
+}
+
+std::vector<SvgPanel> make_panels(const MapSnapshot& map, const std::vector<MapFeature>& deleted,
+                                  const SvgOptions& options, double heading) {
   const double turn = options.turn.value_or(oblique_turn(map.features, heading));
   std::vector<SvgPanel> panels;
   for (const SvgView view : options.views) {
@@ -61,6 +70,7 @@ std::vector<SvgPanel> make_panels(const MapSnapshot& map, const SvgOptions& opti
     panel.view = view;
     panel.axes = view_axes(view, heading, turn);
     panel.features = project_features(map.features, panel.axes);
+    panel.deleted = project_features(deleted, panel.axes);
     panel.box = view_box(panel, options.extent);
   }
   return panels;
@@ -153,8 +163,9 @@ std::string to_svg(const MapSnapshot& map, const SvgOptions& options) {
   const std::string title = clean_text(options.title);
   const std::string subtitle = fmt::format("revision {} · {}", map.revision, counts_text(map));
   const double heading = options.heading.value_or(front_heading(map.features));
-  std::vector<SvgPanel> panels = make_panels(map, options, heading);
-  if (panels.front().features.empty()) return empty_sheet(title, subtitle);
+  const std::vector<MapFeature> deleted = deleted_of(map);
+  std::vector<SvgPanel> panels = make_panels(map, deleted, options, heading);
+  if (panels.front().features.empty() && deleted.empty()) return empty_sheet(title, subtitle);
 
   const Eigen::Vector2d drawings = arrange(panels, options);
   const double scale = panels.front().scale;

@@ -31,7 +31,8 @@ struct SvgOptions {
 /// @brief The map as a sheet for people: orthographic views (top, front, oblique) at one common
 /// scale, with labels "#1", "#2", ... in the order of the ids, a scale bar and each view's axes.
 /// Faces turned away from the eye are pale, so that one looks into a room through its ceiling and
-/// near walls. Features under 0.02 m² stay without label. An empty map gives a sheet that says so.
+/// near walls. What the operator holds has a bold outline, surfaces that he has deleted a dashed
+/// one. Features under 0.02 m² stay without label. An empty map gives a sheet that says so.
 /// @throws std::invalid_argument without views, or for a size that is not positive.
 std::string to_svg(const MapSnapshot& map, const SvgOptions& options = {});
 

@@ -27,6 +27,7 @@ std::string attributes(const ShapeStyle& style) {
   if (style.stroke != "none") {
     text += fmt::format(" stroke=\"{}\" stroke-width=\"{:.1f}\" stroke-opacity=\"{:.2f}\"",
                         style.stroke, style.stroke_width, style.stroke_opacity);
+    if (style.dashed) text += " stroke-dasharray=\"6 4\"";
   }
   return text;
 }

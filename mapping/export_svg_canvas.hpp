@@ -35,6 +35,7 @@ struct ShapeStyle {
   std::string stroke = "none";
   double stroke_width = 1.0;  // [px]
   double stroke_opacity = 1.0;
+  bool dashed = false;
 };
 
 /// @brief Collects the elements of an SVG picture; units are pixels, y runs downwards.

@@ -51,14 +51,26 @@ std::vector<LegendEntry> legend_of(const MapSnapshot& map, const std::vector<Svg
   std::vector<LegendEntry> entries;
   for (const Orientation orientation : kOrientations) {
     if (!present.contains(orientation)) continue;
-    entries.push_back(
-        {orientation_colors(orientation), std::string(orientation_name(orientation))});
+    entries.push_back({.colors = orientation_colors(orientation),
+                       .text = std::string(orientation_name(orientation))});
   }
   const bool any_behind = std::any_of(panels.begin(), panels.end(), [](const SvgPanel& panel) {
     return std::any_of(panel.features.begin(), panel.features.end(), is_seen_from_behind);
   });
   const Rgb grey = {123, 135, 148};
-  if (any_behind) entries.push_back({{grey, grey}, "pale: seen from behind", 0.12});
+  if (any_behind) {
+    entries.push_back({.colors = {grey, grey}, .text = "pale: seen from behind", .opacity = 0.12});
+  }
+  const bool any_held = std::any_of(map.features.begin(), map.features.end(),
+                                    [](const MapFeature& feature) { return feature.is_held(); });
+  if (any_held) {
+    entries.push_back(
+        {.colors = {grey, grey}, .text = "bold: held", .opacity = 0.3, .outline = 3.0});
+  }
+  if (!panels.front().deleted.empty()) {
+    entries.push_back(
+        {.colors = {grey, grey}, .text = "dashed: deleted", .opacity = 0.0, .is_deleted = true});
+  }
   return entries;
 }
 
@@ -76,7 +88,10 @@ void draw_legend(SvgCanvas& canvas, Eigen::Vector2d at, const std::vector<Legend
                        {.fill = to_hex(entry.colors[half]), .fill_opacity = entry.opacity});
     }
     canvas.rectangle(corner, {18.0, 12.0},
-                     {.stroke = to_hex(outline_color(entry.colors[0])), .stroke_width = 0.8});
+                     {.stroke = entry.is_deleted ? std::string(kDeletedColor)
+                                                 : to_hex(outline_color(entry.colors[0])),
+                      .stroke_width = entry.outline,
+                      .dashed = entry.is_deleted});
     canvas.text(at + Eigen::Vector2d(24.0, 4.0), entry.text, {.size = kTextSize});
     at.x() += entry_width(entry);
   }

@@ -23,6 +23,8 @@ struct LegendEntry {
   std::array<Rgb, 2> colors;  // left and right half of the swatch
   std::string text;
   double opacity = 1.0;
+  double outline = 0.8;  // width [px]
+  bool is_deleted = false;
 };
 
 /// @brief Entries for the kinds of faces that are in the map, and for faces seen from behind when a

@@ -42,17 +42,23 @@ Eigen::Vector2d to_pixels(const SvgPanel& panel, const Eigen::Vector2d& p) {
           bottom - panel.scale * (p.y() - panel.box.min().y())};
 }
 
+PictureRings to_pixels(const SvgPanel& panel, const ProjectedFeature& projected) {
+  PictureRings rings;
+  for (const auto& ring : projected.rings) {
+    auto& pixels = rings.emplace_back();
+    for (const Eigen::Vector2d& vertex : ring) pixels.push_back(to_pixels(panel, vertex));
+  }
+  return rings;
+}
+
 std::vector<Shape> shapes_of(const SvgPanel& panel, const PanelStyle& style) {
   std::vector<Shape> shapes;
   for (const std::size_t index : paint_order(panel.features)) {
     Shape& shape = shapes.emplace_back();
     shape.projected = &panel.features[index];
-    for (const auto& ring : shape.projected->rings) {
-      auto& pixels = shape.rings.emplace_back();
-      for (const Eigen::Vector2d& vertex : ring) {
-        pixels.push_back(to_pixels(panel, vertex));
-        shape.box.extend(pixels.back());
-      }
+    shape.rings = to_pixels(panel, *shape.projected);
+    for (const auto& ring : shape.rings) {
+      for (const Eigen::Vector2d& vertex : ring) shape.box.extend(vertex);
     }
     shape.from_behind = is_seen_from_behind(*shape.projected);
     shape.highlighted = std::binary_search(style.highlighted.begin(), style.highlighted.end(),
@@ -68,7 +74,7 @@ void draw_shape(SvgCanvas& canvas, const Shape& shape, const PanelStyle& style) 
   look.fill = to_hex(fill);
   look.fill_opacity = shape.from_behind ? 0.10 : pale ? 0.55 : 0.88;
   look.stroke = to_hex(outline_color(fill));
-  look.stroke_width = shape.from_behind ? 0.8 : 1.3;
+  look.stroke_width = shape.projected->feature->is_held() ? 3.0 : shape.from_behind ? 0.8 : 1.3;
   look.stroke_opacity = shape.from_behind || pale ? 0.55 : 1.0;
   canvas.rings(shape.rings, look);
 }
@@ -223,6 +229,10 @@ void draw_panel(SvgCanvas& canvas, const SvgPanel& panel, const PanelStyle& styl
   draw_axes(canvas, panel.corner + axes_at, panel.axes);
   const std::vector<Shape> shapes = shapes_of(panel, style);
   for (const Shape& shape : shapes) draw_shape(canvas, shape, style);
+  for (const ProjectedFeature& deleted : panel.deleted) {
+    canvas.rings(to_pixels(panel, deleted),
+                 {.stroke = std::string(kDeletedColor), .stroke_width = 1.4, .dashed = true});
+  }
   for (const Shape& shape : shapes) {
     if (!shape.highlighted) continue;
     canvas.rings(shape.rings, {.stroke = std::string(kAccent), .stroke_width = 2.4});

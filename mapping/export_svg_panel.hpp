@@ -19,6 +19,7 @@ struct SvgPanel {
   SvgView view = SvgView::kTop;
   ViewAxes axes;
   std::vector<ProjectedFeature> features;
+  std::vector<ProjectedFeature> deleted;             // surfaces that are kept out of the map
   Eigen::AlignedBox2d box;                           // what the drawing holds, along the axes [m]
   double scale = 1.0;                                // [px/m]
   Eigen::Vector2d corner = Eigen::Vector2d::Zero();  // upper left, of the caption [px]

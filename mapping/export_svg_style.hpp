@@ -9,6 +9,9 @@
 
 namespace geomap::mapping {
 
+/// @brief Of the dashed outlines of deleted surfaces.
+inline constexpr std::string_view kDeletedColor = "#a4161a";
+
 enum class Orientation { kUp, kDown, kUpright, kInclined };
 
 inline constexpr std::array<Orientation, 4> kOrientations = {

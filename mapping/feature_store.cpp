@@ -9,8 +9,8 @@ namespace {
 // Features are immutable, but a fold that is repeated makes new ones: equal when nothing visible or
 // fused differs.
 bool same(const MapFeature& a, const MapFeature& b) {
-  return a.observations == b.observations && a.label == b.label &&
-         a.surface.polygon == b.surface.polygon &&
+  return a.observations == b.observations && a.label == b.label && a.held_by == b.held_by &&
+         a.other_labels == b.other_labels && a.surface.polygon == b.surface.polygon &&
          a.surface.plane.normal == b.surface.plane.normal &&
          a.surface.plane.d == b.surface.plane.d &&
          a.surface.frame.origin == b.surface.frame.origin &&

@@ -27,11 +27,17 @@ struct MapChange {
 /// the one that holds its first observation, or else removed.
 MapChange difference(const FeatureSet& before, const FeatureSet& after);
 
-/// @brief A set of features with its spatial index, which notes what was touched.
+/// @brief A set of features with its spatial index, which notes what was touched. A copy has not
+/// been touched.
 class FeatureStore {
  public:
   FeatureStore() = default;
   explicit FeatureStore(FeatureSet features);
+  FeatureStore(const FeatureStore& other) : FeatureStore(other.features_) {}
+  FeatureStore& operator=(const FeatureStore& other) { return *this = FeatureStore(other); }
+  FeatureStore(FeatureStore&&) noexcept = default;
+  FeatureStore& operator=(FeatureStore&&) noexcept = default;
+  ~FeatureStore() = default;
 
   const FeatureSet& features() const { return features_; }
   const MapFeature& at(const FeatureId& id) const { return *features_.at(id); }

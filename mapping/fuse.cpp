@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <set>
+#include <string>
 
 #include "geometry/polygon_clip.hpp"
 #include "geometry/polygon_simplify.hpp"
@@ -34,6 +36,21 @@ double view_weight(const geometry::PlaneObservation& seen, const MergeConfig& co
   const double share =
       std::min(1.0, geometry::area(seen.surface.polygon) / config.full_weight_area);
   return share / view_variance(seen.moments, config);
+}
+
+// The operator's last word counts; what it overrules is not lost.
+void add_labels(MapFeature& feature, const MapFeature& other) {
+  std::set<std::string> all(feature.other_labels.begin(), feature.other_labels.end());
+  all.insert(other.other_labels.begin(), other.other_labels.end());
+  for (const std::string& label : {feature.label, other.label}) {
+    if (!label.empty()) all.insert(label);
+  }
+  if (other.label_edit > feature.label_edit) {
+    feature.label = other.label;
+    feature.label_edit = other.label_edit;
+  }
+  all.erase(feature.label);
+  feature.other_labels.assign(all.begin(), all.end());
 }
 
 }  // namespace
@@ -82,6 +99,7 @@ void add_evidence(MapFeature& feature, const MapFeature& other) {
     feature.color[i] += share * (other.color[i] - feature.color[i]);
   }
   feature.inliers += other.inliers;
+  add_labels(feature, other);
 }
 
 bool refit(MapFeature& feature) {

@@ -21,7 +21,7 @@ double view_variance(const geometry::PlaneMoments& moments, const MergeConfig& c
 std::optional<MapFeature> feature_of(const Observation& observation, std::int32_t plane_number,
                                      const MergeConfig& config);
 
-/// @brief Adds what `other` has observed to `feature`: moments, observations, inliers, colour.
+/// @brief Adds what `other` has to `feature`: moments, observations, inliers, colour, labels.
 /// Leaves plane and outline alone. `other`'s frame may differ.
 void add_evidence(MapFeature& feature, const MapFeature& other);
 

@@ -10,17 +10,9 @@ namespace {
 
 constexpr double kOrthonormal = 1e-6;
 
+constexpr std::int64_t kLastTime = std::int64_t{1} << 62;  // [us]
 constexpr double kFarthest = 1e6;                     // of a camera from the world's origin [m]
 constexpr std::int32_t kFarthestVertex = 10'000'000;  // of a polygon's frame, 1 km [0.1 mm]
-
-EventFault pose_fault(const Eigen::Isometry3d& pose) {
-  if (!pose.matrix().allFinite()) return EventFault::kNotFinite;
-  const Eigen::Matrix3d R = pose.linear();
-  const bool rigid = (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < kOrthonormal &&
-                     R.determinant() > 0.0;
-  if (!rigid) return EventFault::kNotRigid;
-  return pose.translation().norm() <= kFarthest ? EventFault::kNone : EventFault::kOutOfRange;
-}
 
 bool is_within_reach(const geometry::Polygon& polygon) {
   return std::all_of(polygon.parts.begin(), polygon.parts.end(), [](const auto& part) {
@@ -42,7 +34,34 @@ EventFault plane_fault(const geometry::PlaneObservation& plane) {
   return find_fault(plane.surface);
 }
 
+// Commands are looked at more closely before they become edits.
+EventFault edit_fault(const Edit& edit) {
+  for (const Eigen::Vector3d& point : edit.points) {
+    if (!point.allFinite()) return EventFault::kNotFinite;
+    if (point.norm() > 2.0 * kFarthest) return EventFault::kOutOfRange;
+  }
+  const bool has_empty_target = std::any_of(edit.targets.begin(), edit.targets.end(),
+                                            [](const auto& target) { return target.empty(); });
+  if (edit.number < 1 || edit.after > kLastTime || has_empty_target ||
+      edit.edits.size() > kMostTargets * kMostEdits || edit.targets.size() > kMostTargets ||
+      edit.points.size() > kMostCorners || edit.label.size() > kLongestLabel ||
+      edit.author.size() > kLongestAuthor) {
+    return EventFault::kBadEdit;
+  }
+  const EventFault anchor = find_fault(edit.T_world_anchor);
+  return anchor != EventFault::kNone ? anchor : find_fault(edit.T_anchor_moved);
+}
+
 }  // namespace
+
+EventFault find_fault(const Eigen::Isometry3d& pose) {
+  if (!pose.matrix().allFinite()) return EventFault::kNotFinite;
+  const Eigen::Matrix3d R = pose.linear();
+  const bool rigid = (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < kOrthonormal &&
+                     R.determinant() > 0.0;
+  if (!rigid) return EventFault::kNotRigid;
+  return pose.translation().norm() <= kFarthest ? EventFault::kNone : EventFault::kOutOfRange;
+}
 
 EventFault find_fault(const geometry::PlanarPolygon& surface) {
   const geometry::PlaneFrame& frame = surface.frame;
@@ -80,21 +99,26 @@ std::string to_string(EventFault fault) {
       return "removed";
     case EventFault::kCompacted:
       return "compacted";
+    case EventFault::kBadEdit:
+      return "bad_edit";
   }
   return "unknown";
 }
 
 EventFault find_fault(const MapEvent& event) {
   if (const auto* observation = std::get_if<std::shared_ptr<const Observation>>(&event)) {
-    EventFault fault = pose_fault((*observation)->T_world_camera);
+    EventFault fault = find_fault((*observation)->T_world_camera);
     for (const geometry::PlaneObservation& plane : (*observation)->planes) {
       if (fault == EventFault::kNone) fault = plane_fault(plane);
     }
     return fault;
   }
+  if (const auto* edit = std::get_if<std::shared_ptr<const Edit>>(&event)) {
+    return edit_fault(**edit);
+  }
   if (const auto* correction = std::get_if<PoseCorrection>(&event)) {
     for (const auto& [keyframe, pose] : correction->poses) {
-      const EventFault fault = pose_fault(pose);
+      const EventFault fault = find_fault(pose);
       if (fault != EventFault::kNone) return fault;
     }
   }

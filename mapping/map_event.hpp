@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/planar_polygon.hpp"
+#include "mapping/edit.hpp"
 
 namespace geomap::mapping {
 
@@ -31,9 +32,10 @@ struct PoseCorrection {
   std::vector<std::pair<std::int64_t, Eigen::Isometry3d>> poses;
 };
 
-/// @brief What changes a geometric map. Observations are shared: history, copies and journal hold
-/// the same one.
-using MapEvent = std::variant<std::shared_ptr<const Observation>, KeyframeRemoval, PoseCorrection>;
+/// @brief What changes a geometric map. Observations and edits are shared: history, copies and
+/// journal hold the same one.
+using MapEvent = std::variant<std::shared_ptr<const Observation>, KeyframeRemoval, PoseCorrection,
+                              std::shared_ptr<const Edit>>;
 
 /// @brief Why an event did not change the map.
 enum class EventFault {
@@ -45,8 +47,12 @@ enum class EventFault {
   kAlreadyObserved,  // the key frame is in the map
   kRemoved,          // the key frame was removed before
   kCompacted,        // the key frame is part of the base state, whose events are gone
+  kBadEdit,          // an edit holds too much, or its number is not the next one
 };
 std::string to_string(EventFault fault);
+
+/// @brief Checks a pose: finite, rigid, at most 1000 km from the origin.
+EventFault find_fault(const Eigen::Isometry3d& pose);
 
 /// @brief Checks a surface in its own right: finite, orthonormal frame, plane along the frame,
 /// valid polygon that reaches at most 1 km.

@@ -38,7 +38,12 @@ struct MapFeature {
   double sigma_d = 0.0;                     // of the offset at the centroid [m]
   std::array<double, 3> color{};            // mean red, green, blue, 0..255, weighted by inliers
   std::string label;                        // given by the operator; empty: none
+  std::int64_t label_edit = 0;              // number of the edit that gave it; 0: none
+  std::vector<std::string> other_labels;    // overruled by a later one in a merge, ascending
+  std::vector<std::int64_t> held_by;        // edits that hold it, ascending; see is_held()
 
+  /// @brief Held by the operator: observations and merging leave it alone.
+  bool is_held() const { return !held_by.empty(); }
   std::int64_t first_utime() const { return observations.front().keyframe; }
   std::int64_t last_utime() const { return observations.back().keyframe; }
 };

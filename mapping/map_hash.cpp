@@ -20,13 +20,20 @@ void add(Digest& digest, const MapFeature& feature) {
   digest.add(feature.inliers);
   for (const double channel : feature.color) digest.add(channel);
   digest.add(feature.label);
+  digest.add(feature.other_labels.size());
+  for (const std::string& label : feature.other_labels) digest.add(label);
+  digest.add(feature.is_held());
 }
 
 }  // namespace
 
-std::string map_hash(const FeatureSet& features) {
+std::string map_hash(const FeatureSet& features, const VetoSet& vetoes) {
   Digest digest;
   for (const auto& [id, feature] : features) add(digest, *feature);
+  for (const auto& [key, veto] : vetoes) {
+    digest.add(static_cast<std::int8_t>(veto->cause));
+    add(digest, veto->feature);
+  }
   return digest.hex();
 }
 

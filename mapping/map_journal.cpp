@@ -95,15 +95,10 @@ class MapFile {
     }
   }
 
-  FeatureSet features(const std::vector<geomap::feature_state_t>& messages) const {
-    FeatureSet set;
-    for (const geomap::feature_state_t& message : messages) {
-      auto feature = from_message(message);
-      if (!feature) fail("holds a feature that is not valid");
-      const FeatureId id = feature->id;
-      set.emplace(id, std::make_shared<const MapFeature>(std::move(*feature)));
-    }
-    return set;
+  MapContents contents(const geomap::map_contents_t& message) const {
+    auto contents = from_message(message, journal_.saved.merge);
+    if (!contents) fail("holds a feature that is not valid");
+    return std::move(*contents);
   }
 
   void take_state() {
@@ -117,10 +112,13 @@ class MapFile {
       fail(std::string("was made with settings of another version: ") + error.what());
     }
     saved.revision = state_->revision;
-    saved.features = features(state_->features);
-    saved.base_features = features(state_->base_features);
+    saved.contents = contents(state_->contents);
+    saved.base = contents(state_->base);
+    saved.last_edit = state_->last_edit;
     if (state_->base_keyframe != kNoKeyframe) saved.base_keyframe = state_->base_keyframe;
-    if (map_hash(saved.features) != state_->hash) fail("is damaged: its hash does not match");
+    if (map_hash(saved.contents.features, saved.contents.vetoes) != state_->hash) {
+      fail("is damaged: its hash does not match");
+    }
   }
 
   std::filesystem::path path_;
@@ -134,16 +132,13 @@ geomap::map_state_t state_of(const SavedMap& saved) {
   geomap::map_state_t state{};
   state.revision = saved.revision;
   state.config = to_yaml(saved.merge, saved.history);
-  state.hash = map_hash(saved.features);
-  for (const auto& [id, feature] : saved.features) {
-    state.features.push_back(to_message(*feature));
+  state.hash = map_hash(saved.contents.features, saved.contents.vetoes);
+  state.contents = to_message(saved.contents);
+  for (const auto& [id, feature] : saved.contents.features) {
     state.utime = std::max(state.utime, feature->last_utime());
   }
-  state.n_features = static_cast<std::int32_t>(state.features.size());
-  for (const auto& [id, feature] : saved.base_features) {
-    state.base_features.push_back(to_message(*feature));
-  }
-  state.n_base_features = static_cast<std::int32_t>(state.base_features.size());
+  state.base = to_message(saved.base);
+  state.last_edit = saved.last_edit;
   state.base_keyframe = saved.base_keyframe.value_or(kNoKeyframe);
   return state;
 }
@@ -185,25 +180,24 @@ GeometricMap reopen(SavedMap saved, const MergeConfig& merge, const HistoryConfi
   saved.merge = merge;
   saved.history = history;
   if (is_same) return GeometricMap(saved);
-  const std::vector<MapEvent> events = std::exchange(saved.events, {});
-  saved.features = saved.base_features;
   GeometricMap map(saved);
-  for (const MapEvent& event : events) map.apply(event);
+  map.fold_anew();
   return map;
 }
 
-MapSnapshot snapshot_of(std::int64_t revision, const FeatureSet& features) {
-  MapSnapshot snapshot{revision, map_hash(features), {}};
+MapSnapshot snapshot_of(std::int64_t revision, const FeatureSet& features, const VetoSet& vetoes) {
+  MapSnapshot snapshot{revision, map_hash(features, vetoes), {}, {}};
   for (const auto& [id, feature] : features) snapshot.features.push_back(*feature);
+  for (const auto& [key, veto] : vetoes) snapshot.vetoes.push_back(*veto);
   return snapshot;
 }
 
 MapSnapshot snapshot_of(const SavedMap& saved) {
-  return snapshot_of(saved.revision, saved.features);
+  return snapshot_of(saved.revision, saved.contents.features, saved.contents.vetoes);
 }
 
 MapSnapshot snapshot_of(const GeometricMap& map) {
-  return snapshot_of(map.revision(), map.features());
+  return snapshot_of(map.revision(), map.features(), map.vetoes());
 }
 
 }  // namespace geomap::mapping

@@ -49,8 +49,9 @@ GeometricMap reopen(SavedMap saved, const MergeConfig& merge, const HistoryConfi
 /// @brief The exact state of a map, without its events.
 geomap::map_state_t state_of(const SavedMap& saved);
 
-/// @brief Features, revision and hash, for exports.
-MapSnapshot snapshot_of(std::int64_t revision, const FeatureSet& features);
+/// @brief Features, vetoes, revision and hash, for exports.
+MapSnapshot snapshot_of(std::int64_t revision, const FeatureSet& features,
+                        const VetoSet& vetoes = {});
 MapSnapshot snapshot_of(const SavedMap& saved);
 MapSnapshot snapshot_of(const GeometricMap& map);
 

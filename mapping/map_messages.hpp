@@ -3,9 +3,12 @@
 
 #include <optional>
 
+#include "geomap/edit_t.hpp"
 #include "geomap/feature_state_t.hpp"
+#include "geomap/map_contents_t.hpp"
 #include "geomap/map_event_t.hpp"
 #include "geomap/observation_id_t.hpp"
+#include "mapping/map_contents.hpp"
 #include "mapping/map_event.hpp"
 #include "mapping/map_feature.hpp"
 
@@ -19,10 +22,22 @@ geomap::map_event_t to_message(const MapEvent& event);
 /// @brief The inverse; nothing for an unknown kind or a plane that is refused.
 std::optional<MapEvent> from_message(const geomap::map_event_t& message);
 
+/// @brief An edit, exact in every number.
+geomap::edit_t to_message(const Edit& edit);
+/// @brief The inverse; nothing for an unknown kind.
+std::optional<Edit> from_message(const geomap::edit_t& message);
+
 /// @brief A feature of the map, exact in every number.
 geomap::feature_state_t to_message(const MapFeature& feature);
 /// @brief The inverse; nothing when the surface is not sound (find_fault), or the observations are
 /// empty, unsorted, or do not begin with the id.
 std::optional<MapFeature> from_message(const geomap::feature_state_t& message);
+
+/// @brief All that a map holds, exact in every number.
+geomap::map_contents_t to_message(const MapContents& contents);
+/// @brief The inverse; nothing when a feature is refused.
+/// @param config with which it was made.
+std::optional<MapContents> from_message(const geomap::map_contents_t& message,
+                                        const MergeConfig& config);
 
 }  // namespace geomap::mapping

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mapping/map_feature.hpp"
+#include "mapping/veto.hpp"
 
 namespace geomap::mapping {
 
@@ -14,6 +15,7 @@ struct MapSnapshot {
   std::int64_t revision = 0;         // number of events that were applied
   std::string hash;                  // map_hash, hexadecimal; empty: unknown
   std::vector<MapFeature> features;  // world frame; any order, exports sort by id
+  std::vector<Veto> vetoes = {};     // world frame
 };
 
 }  // namespace geomap::mapping

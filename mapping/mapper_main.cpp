@@ -15,8 +15,10 @@ int main(int argc, char** argv) {
   return messaging::run_program(
       argc, argv,
       {.name = "geomap-mapper",
-       .description = "Merges the planes of all key frames into the geometric map: PLANES in, "
-                      "MAP_DELTA and MAP_SNAPSHOT out.",
+       .description =
+           "Merges the planes of all key frames into the geometric map, and lets operators "
+           "correct it: PLANES and MAP_EDIT in, MAP_DELTA, MAP_SNAPSHOT and "
+           "MAP_EDIT_REPLY out.",
        .uses_lcm = true},
       [&](messaging::OptionParser& parser) {
         messaging::declare_live(parser, options);
@@ -30,9 +32,9 @@ int main(int argc, char** argv) {
         messaging::LiveProcess live("geomap-mapper", common, options);
         auto journal = state.empty() ? nullptr : std::make_unique<mapping::EventJournal>(state);
         const mapping::MapperConfig config = mapping::read_mapper_config(common.config);
-        const mapping::MapperProcess mapper(config, std::move(journal), live);
+        mapping::MapperProcess mapper(config, std::move(journal), live);
         std::optional<mapping::OperatorLink> link;
         if (!operator_url.empty()) link.emplace(operator_url, config.view.kbit_per_s, live);
-        return live.run([] {}, [&] { return mapper.summary(); });
+        return live.run([&] { mapper.finish(); }, [&] { return mapper.summary(); });
       });
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -36,12 +37,22 @@ MapperProcess::MapperProcess(const MapperConfig& config, std::unique_ptr<EventJo
       config_(config),
       journal_(std::move(journal)),
       map_(first_map()),
-      view_(config.view, map_, live) {
+      view_(config.view, map_, live),
+      edits_(map_, live, [this](const EditResult& done, ViewCause cause) {
+        store(done.edit);
+        publish(done.change, cause);
+      }) {
   live_.on<geomap::plane_set_t>(channels::kPlanes, Keep::kEvery,
                                 [this](const geomap::plane_set_t& planes) { take_planes(planes); });
   live_.on<geomap::keyframe_update_t>(
       channels::kKeyframeUpdate, Keep::kEvery,
       [this](const geomap::keyframe_update_t& update) { take_update(update); });
+  live_.on<geomap::map_edit_t>(
+      channels::kMapEdit, Keep::kEvery,
+      [this](const geomap::map_edit_t& edit) { edits_.take(edit, view_.view()); });
+  live_.on<geomap::map_edit_reply_t>(
+      channels::kMapEditReply, Keep::kEvery,
+      [this](const geomap::map_edit_reply_t& reply) { edits_.take_reply(reply, view_.view()); });
   live_.on_request([this](const geomap::map_request_t& request) { take_request(request); });
   if (!journal_) return;
   messaging::log_info(journal_->recovery());
@@ -99,6 +110,9 @@ void MapperProcess::take_request(const geomap::map_request_t& request) {
       break;
     case Request::SNAPSHOT:
       if (request.name.empty() || request.name == channels::kMapSnapshot) view_.request_snapshot();
+      if (request.name.empty() || request.name == channels::kMapEditRecord) {
+        edits_.publish_all(view_.view());
+      }
       break;
     case Request::SAVE:
       save(request.name);
@@ -120,13 +134,17 @@ void MapperProcess::apply(const std::string& channel, const MapEvent& event, Vie
     live_.reject(channel, to_string(applied.fault));
     return;
   }
-  if (journal_) {
-    const messaging::Stopwatch storing;
-    journal_->add(event, map_);
-    live_.health().time("journal", storing.seconds());
-    report_trouble();
-  }
+  store(event);
   publish(applied.change, cause);
+  edits_.note_change(view_.view());
+}
+
+void MapperProcess::store(const MapEvent& event) {
+  if (!journal_) return;
+  const messaging::Stopwatch storing;
+  journal_->add(event, map_);
+  live_.health().time("journal", storing.seconds());
+  report_trouble();
 }
 
 void MapperProcess::replace_map(GeometricMap map, ViewCause cause) {
@@ -137,6 +155,7 @@ void MapperProcess::replace_map(GeometricMap map, ViewCause cause) {
     report_trouble();
   }
   publish(change, cause);
+  edits_.publish_all(view_.view());
 }
 
 void MapperProcess::save(const std::string& name) {
@@ -173,9 +192,13 @@ void MapperProcess::report_trouble() {
 
 std::string MapperProcess::summary() const {
   const MapView& view = view_.view();
+  const EventHistory& history = map_.history();
+  const auto keyframes = std::count_if(
+      history.keyframes().begin(), history.keyframes().end(),
+      [&](const auto& keyframe) { return !history.edits().is_dropped(keyframe.first); });
   return fmt::format("{} features of {} key frames\nmap_hash {}\nview_hash {}, revision {}\n",
-                     map_.features().size(), map_.history().keyframes().size(),
-                     map_hash(map_.features()), view_hash(view), view.revision);
+                     map_.features().size(), keyframes, map_hash(map_.features(), map_.vetoes()),
+                     view_hash(view), view.revision);
 }
 
 }  // namespace geomap::mapping

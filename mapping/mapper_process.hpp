@@ -7,6 +7,7 @@
 #include "geomap/keyframe_update_t.hpp"
 #include "geomap/map_request_t.hpp"
 #include "geomap/plane_set_t.hpp"
+#include "mapping/edit_process.hpp"
 #include "mapping/event_journal.hpp"
 #include "mapping/geometric_map.hpp"
 #include "mapping/map_view_process.hpp"
@@ -25,14 +26,17 @@ struct MapperConfig {
 /// @throws messaging::ConfigError.
 MapperConfig read_mapper_config(const messaging::Config& config);
 
-/// @brief geomap-mapper: PLANES in, the geometric map and the operator's view of it out. Key frames
-/// that registration moves or drops are moved and dropped here too. With a journal the map outlives
-/// the process.
+/// @brief geomap-mapper: PLANES and operators' edits in, the geometric map and the operator's view
+/// of it out. Key frames that registration moves or removes are moved and removed here too. With a
+/// journal the map outlives the process.
 class MapperProcess {
  public:
   /// @param journal not opened yet; null: nothing is stored. @throws as EventJournal::open.
   MapperProcess(const MapperConfig& config, std::unique_ptr<EventJournal> journal,
                 messaging::LiveProcess& live);
+
+  /// @brief At the end of the input.
+  void finish() { edits_.finish(view_.view()); }
 
   const GeometricMap& map() const { return map_; }
   std::string summary() const;
@@ -43,6 +47,7 @@ class MapperProcess {
   void take_update(const geomap::keyframe_update_t& update);
   void take_request(const geomap::map_request_t& request);
   void apply(const std::string& channel, const MapEvent& event, ViewCause cause);
+  void store(const MapEvent& event);
   void replace_map(GeometricMap map, ViewCause cause);
   void save(const std::string& name);
   void load(const std::string& name);
@@ -54,6 +59,7 @@ class MapperProcess {
   std::unique_ptr<EventJournal> journal_;
   GeometricMap map_;
   MapViewPublisher view_;
+  EditDesk edits_;
   messaging::SequenceGaps sequence_;
   std::string reported_trouble_;  // of the journal, in HEALTH and log
 };

@@ -23,6 +23,7 @@ OperatorLink::OperatorLink(const std::string& url, double kbit_per_s, messaging:
             .channels = {{.name = channels::kMapDelta},
                          {.name = channels::kMapSnapshot},
                          {.name = channels::kMapEditReply},
+                         {.name = channels::kMapEditRecord},
                          {.name = channels::kHealth},
                          {.name = channels::kCameraPose,
                           .keep = Keep::kNewest,

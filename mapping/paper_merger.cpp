@@ -46,7 +46,27 @@ double rms_about(const geometry::PlaneMoments& moments, const Plane& plane) {
   return std::sqrt(std::max(0.0, plane.normal.dot(scatter * plane.normal)) + offset * offset);
 }
 
-MapFeature merge(const MapFeature& older, const MapFeature& younger) {
+}  // namespace
+
+std::int64_t PaperMerger::insert(MapFeature feature, FeatureStore& store) const {
+  const auto compared = static_cast<std::int64_t>(store.features().size());
+  std::vector<FeatureId> candidates;
+  for (const auto& [id, other] : store.features()) {  // d at the origin says nothing of nearness
+    if (!other->is_held() && coefficients_agree(feature, *other, config_) &&
+        intersects(feature, *other)) {
+      candidates.push_back(id);
+    }
+  }
+  for (const FeatureId& id : candidates) {
+    const MapFeature other = store.at(id);
+    store.erase(id);
+    feature = other.id < feature.id ? merge(other, feature) : merge(feature, other);
+  }
+  store.put(std::move(feature));
+  return compared;
+}
+
+MapFeature PaperMerger::merge(const MapFeature& older, const MapFeature& younger) const {
   MapFeature merged = older;
   geometry::PlanarPolygon& surface = merged.surface;
   add_evidence(merged, younger);
@@ -63,25 +83,6 @@ MapFeature merge(const MapFeature& older, const MapFeature& younger) {
   surface.polygon = geometry::unite(older.surface.in_frame(surface.frame),
                                     younger.surface.in_frame(surface.frame));  // equation 11
   return merged;
-}
-
-}  // namespace
-
-std::int64_t PaperMerger::insert(MapFeature feature, FeatureStore& store) const {
-  const auto compared = static_cast<std::int64_t>(store.features().size());
-  std::vector<FeatureId> candidates;
-  for (const auto& [id, other] : store.features()) {  // d at the origin says nothing of nearness
-    if (coefficients_agree(feature, *other, config_) && intersects(feature, *other)) {
-      candidates.push_back(id);
-    }
-  }
-  for (const FeatureId& id : candidates) {
-    const MapFeature other = store.at(id);
-    store.erase(id);
-    feature = other.id < feature.id ? merge(other, feature) : merge(feature, other);
-  }
-  store.put(std::move(feature));
-  return compared;
 }
 
 }  // namespace geomap::mapping

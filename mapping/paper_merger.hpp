@@ -15,6 +15,7 @@ class PaperMerger : public Merger {
  public:
   explicit PaperMerger(const MergeConfig& config) : config_(config) {}
   std::int64_t insert(MapFeature feature, FeatureStore& store) const override;
+  MapFeature merge(const MapFeature& older, const MapFeature& younger) const override;
 
  private:
   MergeConfig config_;

@@ -94,6 +94,7 @@ ViewFeature quantised(const MapFeature& feature) {
   view.sigma_d = rounded<std::int16_t>(feature.sigma_d, geometry::kGridUnit);
   std::transform(feature.color.begin(), feature.color.end(), view.color.begin(),
                  [](double value) { return rounded<std::uint8_t>(value, 1.0); });
+  view.locked = feature.is_held();
   view.label = feature.label;
   return view;
 }

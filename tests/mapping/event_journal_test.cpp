@@ -127,7 +127,7 @@ TEST_F(EventJournalTest, IsALogOfMapEvents) {
   while (const auto event = reader.next()) events += event->channel == "MAP_EVENT";
   EXPECT_EQ(events, 20);
   const SavedMap saved = load_map(journals().at(0));  // and a map, for every other program
-  EXPECT_EQ(map_hash(saved.features), hashes_of(history(20)).back());
+  EXPECT_EQ(map_hash(saved.contents.features), hashes_of(history(20)).back());
 }
 
 TEST_F(EventJournalTest, DoesNotGrowForEver) {
@@ -301,7 +301,7 @@ TEST_F(EventJournalTest, AMapThatIsReplacedWithoutRoomIsStoredLater) {
       const FileSizeLimit limit(100);
       journal.replace(other);
       EXPECT_NE(journal.trouble(), "");
-      EXPECT_EQ(map_hash(load_map(journals().at(0)).features), hashes_of(events).back());
+      EXPECT_EQ(map_hash(load_map(journals().at(0)).contents.features), hashes_of(events).back());
       other.apply(view(8));
       journal.add(view(8), other);
       EXPECT_NE(journal.trouble(), "");
@@ -324,7 +324,13 @@ TEST_F(EventJournalTest, OneFolderServesOneProcess) {
 }
 
 TEST_F(EventJournalTest, OtherSettingsOfMergingFoldTheMapAnew) {
-  const std::vector<MapEvent> events = history(20);
+  GeometricMap edited(MergeConfig{}, HistoryConfig{});
+  for (const MapEvent& event : history(20)) edited.apply(event);
+  edited.edit({.kind = EditKind::kDelete, .targets = {edited.features().begin()->first}});
+  edited.edit(
+      {.kind = EditKind::kLabel, .targets = {edited.features().begin()->first}, .label = "wall"});
+  edited.edit({.kind = EditKind::kUndo});
+  const std::vector<MapEvent> events = edited.history().events();
   store(events, {});
   MergeConfig narrow;
   narrow.gap = 0.001;
@@ -333,7 +339,10 @@ TEST_F(EventJournalTest, OtherSettingsOfMergingFoldTheMapAnew) {
   for (const char* times : {"folded anew", ""}) {
     EventJournal journal(folder());
     const GeometricMap map = journal.open(narrow, HistoryConfig{});
-    EXPECT_EQ(map_hash(map.features()), map_hash(expected.features()));
+    EXPECT_EQ(map_hash(map.features(), map.vetoes()),
+              map_hash(expected.features(), expected.vetoes()));
+    EXPECT_EQ(map.history().edits().entries().size(), 3U);
+    EXPECT_EQ(map.vetoes().size(), 1U);
     EXPECT_THAT(journal.recovery(), HasSubstr(times));
   }
 }

@@ -91,11 +91,12 @@ TEST(ExportJson, HasTheKeysOfTheSchemaInItsOrder) {
     for (const auto& [key, value] : object.items()) names.push_back(key);
     return names;
   };
-  EXPECT_THAT(keys(map), ElementsAre("revision", "hash", "features"));
+  EXPECT_THAT(keys(map), ElementsAre("revision", "hash", "features", "vetoes"));
   ASSERT_EQ(map["features"].size(), 4U);
-  EXPECT_THAT(keys(map["features"][1]),
-              ElementsAre("id", "label", "normal", "d", "area", "observations", "first_utime",
-                          "last_utime", "rms", "sigma_angle", "sigma_d", "color", "polygons"));
+  EXPECT_THAT(
+      keys(map["features"][1]),
+      ElementsAre("id", "label", "normal", "d", "area", "observations", "first_utime", "last_utime",
+                  "rms", "sigma_angle", "sigma_d", "color", "held", "polygons"));
   EXPECT_THAT(keys(map["features"][1]["polygons"][0]), ElementsAre("outer", "holes"));
 }
 
@@ -230,6 +231,28 @@ TEST(ExportMap, AFailedWriteLeavesWhatWasThereAndNoTemporaryFile) {
   EXPECT_THROW(export_map(example_map(), folder / "map.ply"), std::runtime_error);
   EXPECT_TRUE(std::filesystem::exists(folder / "map.ply" / "inside"));
   EXPECT_FALSE(std::filesystem::exists(folder / "map.ply.part"));
+}
+
+TEST(Exports, WhatTheOperatorHoldsAndHasDeletedIsTold) {
+  MapSnapshot map = example_map();
+  map.features[0].held_by = {3};
+  map.vetoes.push_back(
+      {.edit = 4, .cause = VetoCause::kDeleted, .feature = map.features[1], .region = {}});
+  const json exported = json::parse(to_map_json(map));
+  int held = 0;
+  for (const json& feature : exported["features"]) held += feature["held"] ? 1 : 0;
+  EXPECT_EQ(held, 1);
+  ASSERT_EQ(exported["vetoes"].size(), 1U);
+  EXPECT_EQ(exported["vetoes"][0]["edit"], 4);
+  EXPECT_EQ(exported["vetoes"][0]["feature"], to_string(map.features[1].id));
+  EXPECT_FALSE(exported["vetoes"][0]["polygons"].empty());
+
+  const std::string svg = to_svg(map), plain = to_svg(example_map());
+  EXPECT_THAT(svg, HasSubstr("stroke-dasharray"));
+  EXPECT_THAT(svg, HasSubstr("dashed: deleted"));
+  EXPECT_THAT(svg, HasSubstr("bold: held"));
+  EXPECT_THAT(plain, ::testing::Not(HasSubstr("stroke-dasharray")));
+  EXPECT_THAT(plain, ::testing::Not(HasSubstr("bold: held")));
 }
 
 TEST(Exports, MapsWithoutFeaturesOrWithoutAreaAreWritten) {
