@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "mapping/edit_messages.hpp"
 #include "messaging/stopwatch.hpp"
 #include "perception/extractor_choice.hpp"
 
@@ -20,6 +21,24 @@ Pipeline::Pipeline(const PipelineConfig& config, int threads)
 void Pipeline::finish() {
   tracking_.finish();
   while (!extractions_.empty()) merge_oldest();
+  while (const auto placed = logged_edits_.next_at_end()) edit(*placed);
+}
+
+void Pipeline::add_edit(const geomap::map_edit_t& message) {
+  auto command = mapping::from_message(message);
+  if (command && message.dry_run == 0) logged_edits_.add(std::move(*command), message.seen_utime);
+}
+
+void Pipeline::add_edit_reply(const geomap::map_edit_reply_t& message) {
+  perception::Tracker& tracker = tracking_.tracker();
+  for (const std::int64_t keyframe : message.dropped) tracker.remove(keyframe);
+  for (const std::int64_t keyframe : message.restored) tracker.put_back(keyframe);
+  logged_edits_.take_reply(message.author, message.command, message.done != 0, message.utime);
+  while (const auto placed = logged_edits_.next(map_.history().newest())) edit(*placed);
+}
+
+void Pipeline::edit(const mapping::LoggedEdits::Placed& placed) {
+  if (map_.edit(placed.command, placed.after).edit) ++edits_;
 }
 
 // A frame after tracking, which ends in the point map: its planes are next; merging follows when
@@ -77,6 +96,7 @@ void Pipeline::merge_oldest() {
   }
   keyframes_.push_back(record);
   if (listener_) listener_(record, *observation, applied.change);
+  while (const auto placed = logged_edits_.next(map_.history().newest())) edit(*placed);
 }
 
 }  // namespace geomap::logs

@@ -12,9 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "geomap/map_edit_reply_t.hpp"
+#include "geomap/map_edit_t.hpp"
 #include "logs/pipeline_config.hpp"
 #include "logs/stage_times.hpp"
 #include "mapping/geometric_map.hpp"
+#include "mapping/logged_edits.hpp"
 #include "perception/plane_extractor.hpp"
 #include "perception/tracking_process.hpp"
 
@@ -59,10 +62,15 @@ class Pipeline {
 
   /// @brief Where the input goes.
   perception::TrackingProcess& tracking() { return tracking_; }
+  /// @brief An operator's command of the log, and what was answered to it then: the reply says
+  /// behind which key frame the edit has its place, and which key frames left the point map.
+  void add_edit(const geomap::map_edit_t& message);
+  void add_edit_reply(const geomap::map_edit_reply_t& message);
   /// @brief Processes what still waits for a prior or an extraction. Call at the end of the input.
   void finish();
 
   std::int64_t frames() const { return tracking_.frames(); }
+  std::int64_t edits() const { return edits_; }
   const std::vector<KeyframeRecord>& keyframes() const { return keyframes_; }
   /// @brief Frames that could not become key frames, by reason.
   const std::map<std::string, std::int64_t>& rejected() const { return rejected_; }
@@ -80,12 +88,15 @@ class Pipeline {
   void take(perception::TrackedFrame frame);
   void start_extraction(KeyframeRecord record, geometry::RgbdFrame frame);
   void merge_oldest();
+  void edit(const mapping::LoggedEdits::Placed& placed);
 
   PipelineConfig config_;
   std::size_t threads_;
   perception::TrackingProcess tracking_;
   std::unique_ptr<perception::PlaneExtractor> extractor_;
   mapping::GeometricMap map_;
+  mapping::LoggedEdits logged_edits_;
+  std::int64_t edits_ = 0;  // that were done
 
   std::deque<Extraction> extractions_;  // in the order of the key frames
   KeyframeListener listener_;

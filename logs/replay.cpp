@@ -74,12 +74,26 @@ void note_reference(const messaging::LogEvent& event, Trajectory& reference) {
   }
 }
 
+// What operators have done to the map while the log was recorded.
+void replay_edits(const messaging::LogEvent& event, Pipeline& pipeline) {
+  if (event.channel == channels::kMapEdit) {
+    const auto edit =
+        messaging::safe_decode<geomap::map_edit_t>(event.data.data(), event.data.size());
+    if (edit.message) pipeline.add_edit(*edit.message);
+  } else if (event.channel == channels::kMapEditReply) {
+    const auto reply =
+        messaging::safe_decode<geomap::map_edit_reply_t>(event.data.data(), event.data.size());
+    if (reply.message) pipeline.add_edit_reply(*reply.message);
+  }
+}
+
 void run(Pass& pass, const std::string& log) {
   const messaging::Stopwatch stopwatch;
   messaging::LogReader reader(log);
   messaging::ProgressBar progress("frames", 0);
   while (const auto event = reader.next()) {
     pass.input.handle(event->channel, event->data);
+    replay_edits(*event, pass.pipeline);
     note_reference(*event, pass.reference);
     progress.update(pass.pipeline.frames(),
                     pass.pipeline.frames() * reader.size() / reader.position());
@@ -221,6 +235,7 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   report.git_revision = kGitRevision;
   report.config_hash = config.hash();
   report.frames = pipeline.frames();
+  report.edits = pipeline.edits();
   report.rejected = pipeline.rejected();
   report.refused = first.input.refused();
   report.sequence_gaps = first.input.missing_frames();

@@ -88,6 +88,7 @@ std::string tracking_rows(const Report& report) {
   if (report.lost_at_end) text += "| at the end | lost |\n";
   row("key frames that the map knew too little of: posed by odometry", unknown_views(report));
   row("odometry tied in anew after a break", report.tracking.relinked);
+  row("operators' edits done again", report.edits);
   row("frames older than the one before", report.tracking.time_went_back);
   row("jumps of POSE", report.poses.jumps);
   row("restarts of POSE", report.poses.restarts);
@@ -124,6 +125,7 @@ nlohmann::ordered_json to_json(const Report& report) {
   json["extractor"] = report.extractor;
   json["merge"] = report.merge_mode;
   json["frames"] = report.frames;
+  json["edits"] = report.edits;
   json["keyframes"] = report.keyframes.size();
   json["keyframes_rejected"] = report.rejected;
   json["registration"] = registration_json(report);

@@ -33,6 +33,7 @@ struct Report {
   std::string git_revision;
   std::string config_hash;
   std::int64_t frames = 0;
+  std::int64_t edits = 0;                        // of operators, that were done again
   std::map<std::string, std::int64_t> rejected;  // by reason
   perception::SensorMessages::Refused refused;   // by channel and reason
   std::int64_t sequence_gaps = 0;

@@ -51,6 +51,8 @@ bool restore_one(const messaging::LogEvent& event, Tracker& tracker) {
   const auto decoded = messaging::safe_decode<geomap::keyframe_update_t>(data, size);
   if (!decoded.message) return false;
   for (const std::int64_t keyframe : decoded.message->removed) tracker.remove(keyframe);
+  for (const std::int64_t keyframe : decoded.message->dropped) tracker.remove(keyframe);
+  for (const std::int64_t keyframe : decoded.message->restored) tracker.put_back(keyframe);
   return true;
 }
 

@@ -37,8 +37,9 @@ RegisterProcess::RegisterProcess(const RegisterConfig& config, messaging::LivePr
   live_.on_bytes(channels::kPose, Keep::kEvery, sensor);
   live_.on_bytes(channels::kCameraToBody, Keep::kEvery, sensor);
   live_.on_request([this](const geomap::map_request_t& request) { take_request(request); });
-  live_.on<geomap::map_edit_t>(channels::kMapEdit, Keep::kEvery,
-                               [this](const geomap::map_edit_t& edit) { take_edit(edit); });
+  live_.on<geomap::map_edit_reply_t>(
+      channels::kMapEditReply, Keep::kEvery,
+      [this](const geomap::map_edit_reply_t& reply) { take_reply(reply); });
   live_.every(1.0, [this] { note_counts(); });
   if (!config.state_folder.empty()) restore(config.state_folder);
 }
@@ -105,16 +106,22 @@ void RegisterProcess::take_request(const geomap::map_request_t& request) {
   }
 }
 
-// Only registration drops key frames; whoever maps follows.
-void RegisterProcess::take_edit(const geomap::map_edit_t& edit) {
-  if (edit.kind != geomap::map_edit_t::REMOVE_KEYFRAME) return;
-  if (!tracking_.tracker().remove(edit.keyframe)) return;
+// The mapper decides on edits; the point map follows.
+void RegisterProcess::take_reply(const geomap::map_edit_reply_t& reply) {
+  Tracker& tracker = tracking_.tracker();
   geomap::keyframe_update_t update{};
+  for (const std::int64_t keyframe : reply.dropped) {
+    if (tracker.remove(keyframe)) update.dropped.push_back(keyframe);
+  }
+  for (const std::int64_t keyframe : reply.restored) {
+    if (tracker.put_back(keyframe)) update.restored.push_back(keyframe);
+  }
+  update.n_dropped = static_cast<std::int32_t>(update.dropped.size());
+  update.n_restored = static_cast<std::int32_t>(update.restored.size());
+  if (update.n_dropped + update.n_restored == 0) return;
   update.utime = newest_utime_;
   update.session = messages_.session().value_or(0);
   update.epoch = ++epoch_;
-  update.removed = {edit.keyframe};
-  update.n_removed = 1;
   keep([&] { journal_->keep(update); });
   live_.publish(channels::kKeyframeUpdate, update);
   publish_points(true);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "geomap/map_edit_t.hpp"
+#include "geomap/map_edit_reply_t.hpp"
 #include "geomap/map_request_t.hpp"
 #include "messaging/camera_config.hpp"
 #include "messaging/config.hpp"
@@ -39,7 +39,7 @@ class RegisterProcess {
  private:
   void take_sensor(const std::string& channel, messaging::LiveProcess::Bytes data);
   void take_request(const geomap::map_request_t& request);
-  void take_edit(const geomap::map_edit_t& edit);
+  void take_reply(const geomap::map_edit_reply_t& reply);
   void take_tracked(const TrackedFrame& frame);
   void restore(const std::string& folder);
   template <typename Write>

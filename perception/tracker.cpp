@@ -242,10 +242,25 @@ void Tracker::improve_depth_correction() {
 }
 
 bool Tracker::remove(std::int64_t keyframe) {
+  const geometry::RgbdFrame* thin = point_map_.thin_frame_of(keyframe);
+  if (thin == nullptr) return false;
+  removed_.insert_or_assign(keyframe, RemovedKeyframe{*thin, *point_map_.pose_of(keyframe)});
   const auto is_it = [&](const auto& entry) { return entry.id == keyframe; };
   std::erase_if(surfaces_, is_it);
   std::erase_if(keyframes_, [&](const Pose& pose) { return pose.utime == keyframe; });
   return point_map_.remove(keyframe);
+}
+
+bool Tracker::put_back(std::int64_t keyframe) {
+  const auto found = removed_.find(keyframe);
+  if (found == removed_.end()) return false;
+  const auto& [thin, T_world_camera] = found->second;
+  point_map_.insert(keyframe, thin, T_world_camera);
+  const auto later = std::find_if(keyframes_.begin(), keyframes_.end(),
+                                  [&](const Pose& pose) { return pose.utime > keyframe; });
+  keyframes_.insert(later, {keyframe, T_world_camera});
+  removed_.erase(found);
+  return true;
 }
 
 void Tracker::restore(std::int64_t keyframe, const geometry::RgbdFrame& thin,
@@ -264,6 +279,7 @@ void Tracker::restore_odometry(const Eigen::Isometry3d& T_world_odom) {
 void Tracker::clear() {
   surfaces_.clear();
   keyframes_.clear();
+  removed_.clear();
   point_map_.clear();
   selector_.reset();
   lost_ = false;

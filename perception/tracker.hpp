@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -113,6 +114,9 @@ class Tracker {
 
   /// @brief Takes a key frame out of the point map again. @return false when there is none.
   bool remove(std::int64_t keyframe);
+  /// @brief Puts a removed key frame in again, as it was. @return false when none of this id was
+  /// removed.
+  bool put_back(std::int64_t keyframe);
 
   /// @brief Goes on from a key frame of an earlier tracker, as if this one had accepted it. Given
   /// all of them in their order, the point map is the same to the last bit.
@@ -150,6 +154,11 @@ class Tracker {
     geometry::DepthCorrection correction;  // that they were made with
   };
 
+  struct RemovedKeyframe {
+    geometry::RgbdFrame thin;
+    Eigen::Isometry3d T_world_camera;
+  };
+
   std::optional<Start> start_of(const Prior& prior, std::int64_t utime) const;
   Eigen::Isometry3d continued_motion(std::int64_t utime) const;
   RegistrationResult register_view(const FrameView& view, const Start& start) const;
@@ -173,8 +182,9 @@ class Tracker {
   PointMap point_map_;
 
   std::optional<std::int64_t> last_utime_;
-  std::deque<Pose> recent_;                // the last two tracked frames
-  std::vector<Pose> keyframes_;            // in the order they were accepted
+  std::deque<Pose> recent_;      // the last two tracked frames
+  std::vector<Pose> keyframes_;  // in the order they were accepted
+  std::map<std::int64_t, RemovedKeyframe> removed_;
   std::deque<KeyframeSurfaces> surfaces_;  // of the last key frames, newest first
   bool linked_ = false;                    // T_world_odom holds for the odometry as it is now
   std::int64_t breaks_ = 0;                // of odometry, when it was linked

@@ -131,7 +131,7 @@ class LiveSystem(unittest.TestCase):
         system.play(self.log)
         planes = list(listener.messages["PLANES"])
         edit = self.types.map_edit_t()
-        edit.kind, edit.author = edit.REMOVE_KEYFRAME, "test"
+        edit.kind, edit.author = edit.DROP_KEYFRAME, "test"
         edit.T_world_moved.rotation = [1, 0, 0, 0, 1, 0, 0, 0, 1]
         edit.keyframe = self.types.plane_set_t.decode(planes[len(planes) // 2]).utime
         publisher = live_system.Publisher()
@@ -165,7 +165,8 @@ class LiveSystem(unittest.TestCase):
                  "CAMERA_TO_BODY": bot_core.rigid_transform_t, "OPENNI_FRAME": bot_core.images_t,
                  "KEYFRAME": self.types.keyframe_t, "KEYFRAME_UPDATE": self.types.keyframe_update_t,
                  "PLANES": self.types.plane_set_t, "MAP_REQUEST": self.types.map_request_t,
-                 "MAP_EDIT": self.types.map_edit_t, "HEALTH": self.types.health_t}
+                 "MAP_EDIT": self.types.map_edit_t,
+                 "MAP_EDIT_REPLY": self.types.map_edit_reply_t, "HEALTH": self.types.health_t}
         messages = [(channel, data) for channel, kind in kinds.items()
                     for data in self.hostile(kind)]
         publisher = live_system.Publisher()

@@ -134,6 +134,23 @@ class TwoHosts(unittest.TestCase):
         self.host.lose(50)
         self.map_over_the_link()
 
+    def test_edits_over_a_link_that_loses_every_fifth_packet_are_done_once(self):
+        self.host.lose(20)
+        system = live_system.System(PROGRAMS, self.folder)
+        system.start_all({"geomap-mapper": ["--operator-url", OPERATOR_URL]})
+        system.play(self.log)
+
+        def edit(command, *words):
+            return run([*self.host.enter, str(PROGRAMS / "geomap-edit"), command, "-l", OPERATOR_URL,
+                        "--timeout", "30", *words])
+        for i in range(4):
+            self.assertIn(f"edit {i + 1}: label", edit("label", "1", f"floor{i}"))
+        self.assertIn("floor3", edit("list"))
+        self.assertIn("undo of edit 4", edit("undo"))
+        self.assertIn("floor2", edit("list"))
+        self.assertEqual(len(json.loads(edit("history", "--json"))), 5)
+        self.assertEqual(set(system.stop_all().values()), {0})
+
     def test_the_link_is_thin(self):
         self.host.narrow("256kbit")
         self.map_over_the_link()

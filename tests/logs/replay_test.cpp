@@ -125,7 +125,7 @@ TEST_F(Replay, TheReportTellsWhatEachKeyFrameCost) {
 TEST_F(Replay, TheSavedMapIsTheMapOfTheReport) {
   const ReplayResult result = replay_events(testing::synthetic_log(12));
   const mapping::SavedMap saved = mapping::load_map(path("out/map.lcmlog"));
-  EXPECT_EQ(mapping::map_hash(saved.features), result.report.map.hash);
+  EXPECT_EQ(mapping::map_hash(saved.contents.features), result.report.map.hash);
 }
 
 TEST_F(Replay, ThePlanesOfItsDerivedLogFoldToTheSameMap) {

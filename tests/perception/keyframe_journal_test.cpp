@@ -53,6 +53,18 @@ class Drive {
     update.n_removed = 1;
     journal_.keep(update);
   }
+  /// As when the operator has one dropped, and then undoes that.
+  void drop_and_put_back(std::int64_t keyframe) {
+    ASSERT_TRUE(tracker().remove(keyframe));
+    ASSERT_FALSE(tracker().remove(keyframe));
+    ASSERT_TRUE(tracker().put_back(keyframe));
+    ASSERT_FALSE(tracker().put_back(keyframe));
+    geomap::keyframe_update_t dropped{}, restored{};
+    dropped.dropped = restored.restored = {keyframe};
+    dropped.n_dropped = restored.n_restored = 1;
+    journal_.keep(dropped);
+    journal_.keep(restored);
+  }
   void clear() {
     tracker().clear();
     journal_.clear();
@@ -79,6 +91,19 @@ TEST_F(KeyframeJournalTest, ARestoredTrackerHasTheSamePointMapToTheLastBit) {
   EXPECT_EQ(found.keyframes, 5u);
   EXPECT_EQ(found.refused, 0u);
   testing::expect_same(restored.point_map(), drive.tracker().point_map());
+}
+
+TEST_F(KeyframeJournalTest, AKeyFrameThatIsPutBackLeavesNoTrace) {
+  Drive plain(path("plain")), mended(path("mended"));
+  plain.see(5);
+  mended.see(3);
+  mended.drop_and_put_back(kStart + kSecond);
+  mended.see(2);
+  testing::expect_same(mended.tracker().point_map(), plain.tracker().point_map());
+
+  Tracker restored(by_known_poses());
+  EXPECT_EQ(KeyframeJournal(path("mended")).restore(restored).keyframes, 5u);
+  testing::expect_same(restored.point_map(), plain.tracker().point_map());
 }
 
 TEST_F(KeyframeJournalTest, ACutLastRecordCostsThatOneAlone) {
