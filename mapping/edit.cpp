@@ -56,8 +56,9 @@ std::string point_fault(const EditCommand& command) {
 }
 
 std::string size_fault(const EditCommand& command) {
-  if (command.targets.size() > kMostTargets)
+  if (command.targets.size() > kMostTargets) {
     return fmt::format("names over {} features", kMostTargets);
+  }
   if (command.points.size() > kMostCorners) return fmt::format("has over {} corners", kMostCorners);
   if (command.edits.size() > kMostEdits) return fmt::format("names over {} edits", kMostEdits);
   if (command.label.size() > kLongestLabel) {

@@ -21,6 +21,7 @@
 #include "mapping/edit_session_client.hpp"
 #include "mapping/edit_text.hpp"
 #include "mapping/feature_filter.hpp"
+#include "mapping/parse_number.hpp"
 #include "messaging/program.hpp"
 
 namespace {
@@ -58,13 +59,10 @@ std::int64_t now_us() {
       .count();
 }
 
-std::int64_t parse_number(const std::string& text) {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    throw std::invalid_argument("'" + text + "' is no number");
-  }
-  return number;
+std::int64_t whole_number(const std::string& text) {
+  const auto number = mapping::parse_number<std::int64_t>(text);
+  if (!number) throw std::invalid_argument("'" + text + "' is no number");
+  return *number;
 }
 
 Eigen::Vector3d parse_corner(const std::string& text) {
@@ -106,7 +104,7 @@ std::vector<FeatureId> find_features(const std::vector<std::string>& names,
 
 std::vector<std::int64_t> parse_numbers(const std::vector<std::string>& words) {
   std::vector<std::int64_t> numbers;
-  for (const std::string& word : words) numbers.push_back(parse_number(word));
+  for (const std::string& word : words) numbers.push_back(whole_number(word));
   return numbers;
 }
 
@@ -160,7 +158,7 @@ EditCommand command_of(const Arguments& arguments, const Features& features) {
     corners(0);
   } else if (name == "drop-keyframe") {
     command.kind = EditKind::kDropKeyframe;
-    command.keyframe = parse_number(words.front());
+    command.keyframe = whole_number(words.front());
   }
   return command;
 }

@@ -46,8 +46,8 @@ class FileSession : public EditSession {
   }
 
   geomap::map_edit_reply_t edit(const EditCommand& command, bool is_dry_run) override {
-    GeometricMap trial = map_;
-    GeometricMap& map = is_dry_run ? trial : map_;
+    std::optional<GeometricMap> trial;
+    GeometricMap& map = is_dry_run ? trial.emplace(map_) : map_;
     geomap::map_edit_reply_t reply = reply_to(command, map.edit(command), is_dry_run, map);
     if (!is_dry_run && reply.done != 0) save_map(out_, map_);
     return reply;

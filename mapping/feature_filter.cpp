@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
+
+#include "mapping/parse_number.hpp"
 
 namespace geomap::mapping {
 namespace {
@@ -20,14 +21,6 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(' ');
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
-}
-
-template <class Number>
-std::optional<Number> parse(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
 }
 
 std::optional<double> value_of(const ViewFeature& feature, std::string_view field) {
@@ -71,7 +64,7 @@ Condition parse_condition(std::string_view text) {
     throw std::invalid_argument(fmt::format(
         "'{}' is no field: use area, height, slope, observations, rms, held or label", field));
   }
-  const auto number = parse<double>(value);
+  const auto number = parse_number<double>(value);
   if (!number) throw std::invalid_argument(fmt::format("'{}' is no number", value));
   return [=](const ViewFeature& feature) {
     return holds(*value_of(feature, field), relation, *number);
@@ -109,7 +102,7 @@ std::function<bool(const ViewFeature&)> parse_filter(const std::string& text) {
 
 FeatureId find_feature(const std::string& name, const std::map<FeatureId, ViewFeature>& features) {
   const std::string_view digits = std::string_view(name).substr(name.starts_with('#') ? 1 : 0);
-  if (const auto number = parse<std::size_t>(digits)) {
+  if (const auto number = parse_number<std::size_t>(digits)) {
     if (*number < 1 || *number > features.size()) {
       throw std::invalid_argument(
           fmt::format("there is no feature #{}: the map has {}", *number, features.size()));

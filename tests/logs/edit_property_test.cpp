@@ -6,11 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "drivers/data_set_writer.hpp"
-#include "drivers/scene_file.hpp"
-#include "drivers/sim_process.hpp"
-#include "drivers/trajectory_file.hpp"
-#include "logs/replay.hpp"
+#include "logs/simulated_sweep.hpp"
 #include "mapping/event_journal.hpp"
 #include "mapping/map_hash.hpp"
 #include "mapping/map_journal.hpp"
@@ -34,27 +30,13 @@ mapping::HistoryConfig close_copies() {
   return history;
 }
 
-const std::string kConfig = GEOMAP_SOURCE_DIR "/config/";
-
 std::string hash_of(const GeometricMap& map) { return map_hash(map.features(), map.vetoes()); }
 
 class EditProperty : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     const testing::TemporaryFolder folder;
-    const drivers::Scene scene = drivers::read_scene(kConfig + "scenes/kitchen.yaml");
-    const drivers::CameraTrajectory sweep(
-        drivers::read_robot_trajectory(kConfig + "trajectories/sweep.yaml"));
-    drivers::SimulationConfig simulation;
-    simulation.rate = 4.0;
-    simulation.sensor.sigma = 0.005;
-    drivers::SimProcess(scene, sweep, simulation, {})
-        .record(folder / "sweep.lcmlog", [](std::size_t) { return true; });
-    ReplayOptions options;
-    options.log = (folder / "sweep.lcmlog").string();
-    options.output = folder / "out";
-    options.threads = 2;
-    replay(options, messaging::Config::load());
+    testing::replay_sweep(folder, "kitchen", 0.005, 4.0);
     events_ = mapping::load_map(folder / "out" / "map.lcmlog").events;
     ASSERT_GT(events_.size(), kLast);
     begun_ = std::make_unique<GeometricMap>(folded(kFirst));

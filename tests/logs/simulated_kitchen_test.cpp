@@ -8,13 +8,9 @@
 #include <iostream>
 #include <vector>
 
-#include "drivers/data_set_writer.hpp"
-#include "drivers/scene_file.hpp"
-#include "drivers/sim_process.hpp"
-#include "drivers/trajectory_file.hpp"
 #include "drivers/truth_file.hpp"
 #include "logs/map_evaluation.hpp"
-#include "logs/replay.hpp"
+#include "logs/simulated_sweep.hpp"
 #include "mapping/map_journal.hpp"
 #include "mapping/map_view_messages.hpp"
 #include "messaging/encode.hpp"
@@ -22,25 +18,7 @@
 namespace geomap::logs {
 namespace {
 
-const std::string kConfig = GEOMAP_SOURCE_DIR "/config/";
-
-/// Writes sweep.lcmlog and sweep.truth.yaml, and the replay's results to out/.
-ReplayResult replay_sweep(const testing::TemporaryFolder& folder, const std::string& scene_name,
-                          double sigma) {
-  const drivers::Scene scene = drivers::read_scene(kConfig + "scenes/" + scene_name + ".yaml");
-  const drivers::CameraTrajectory sweep(
-      drivers::read_robot_trajectory(kConfig + "trajectories/sweep.yaml"));
-  drivers::SimulationConfig simulation;
-  simulation.rate = 5.0;
-  simulation.sensor.sigma = sigma;
-  drivers::SimProcess(scene, sweep, simulation, {})
-      .record(folder / "sweep.lcmlog", [](std::size_t) { return true; });
-  ReplayOptions options;
-  options.log = (folder / "sweep.lcmlog").string();
-  options.output = folder / "out";
-  options.threads = 2;
-  return replay(options, messaging::Config::load());
-}
+using testing::replay_sweep;
 
 MapEvaluation evaluate(const std::string& scene_name, double sigma) {
   const testing::TemporaryFolder folder;
