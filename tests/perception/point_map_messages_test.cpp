@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "messaging/convert_points.hpp"
 #include "perception/point_map.hpp"
 #include "support/plane_renderer.hpp"
 
 namespace geomap::perception {
 namespace {
+
+using messaging::from_message;
 
 // A room seen once, in voxels fine enough for more than one message.
 class RoomPoints : public ::testing::Test {
@@ -43,9 +46,10 @@ TEST_F(RoomPoints, ArriveWithinAStepOfTheirPlacesAndInTheirColors) {
     EXPECT_LT(message.size, 190'000);
     const auto blocks = from_message(message);
     ASSERT_TRUE(blocks);
-    for (const PointBlock& block : *blocks) {
-      seen.push_back(block.index);
-      const std::vector<MapPoint> points = map_.voxels().block_points(block.index);
+    for (const messaging::PointBlock& block : *blocks) {
+      const auto [i_x, i_y, i_z] = block.index;
+      seen.push_back({i_x, i_y, i_z});
+      const std::vector<MapPoint> points = map_.voxels().block_points(seen.back());
       ASSERT_EQ(block.points.size(), points.size());
       for (std::size_t i = 0; i < points.size(); ++i) {
         const Eigen::Vector3d off = block.points[i].position - points[i].position;
@@ -68,7 +72,7 @@ TEST_F(RoomPoints, OnlyWhatChangedIsNamedAndWhatIsGoneIsEmpty) {
     EXPECT_EQ(message.complete, 0);
     const auto blocks = from_message(message);
     ASSERT_TRUE(blocks);
-    for (const PointBlock& block : *blocks) EXPECT_TRUE(block.points.empty());
+    for (const messaging::PointBlock& block : *blocks) EXPECT_TRUE(block.points.empty());
   }
 }
 
@@ -93,7 +97,9 @@ TEST_F(RoomPoints, WhatDoesNotHoldWhatItPromisesIsRefused) {
   EXPECT_TRUE(refused([](auto& message) { message.n_blocks = -1; }));
   EXPECT_TRUE(refused([](auto& message) { --message.uncompressed_size; }));
   EXPECT_TRUE(refused([](auto& message) { message.uncompressed_size = -1; }));
+  EXPECT_TRUE(refused([](auto& message) { message.uncompressed_size = INT32_MAX; }));
   EXPECT_TRUE(refused([](auto& message) { message.block_edge = 0.0; }));
+  EXPECT_TRUE(refused([](auto& message) { message.block_edge = 90e3; }));
   EXPECT_TRUE(refused([](auto& message) { message.data.clear(); }));
 }
 
