@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // geomap-edit: the operator's commands from a shell.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -21,6 +18,7 @@
 #include "mapping/edit_session_client.hpp"
 #include "mapping/edit_text.hpp"
 #include "mapping/feature_filter.hpp"
+#include "mapping/operator_name.hpp"
 #include "mapping/parse_number.hpp"
 #include "messaging/program.hpp"
 
@@ -44,20 +42,6 @@ struct Arguments {
   std::string map, out, author, label, where;
   bool is_json = false, is_dry_run = false;
 };
-
-std::string default_author() {
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
-  const char* user = std::getenv("USER");
-  const std::string author = fmt::format("{}@{}", user ? user : "operator", host.data());
-  return mapping::clean_text(author.substr(0, mapping::kLongestAuthor));
-}
-
-std::int64_t now_us() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 std::int64_t whole_number(const std::string& text) {
   const auto number = mapping::parse_number<std::int64_t>(text);
@@ -110,7 +94,7 @@ std::vector<std::int64_t> parse_numbers(const std::vector<std::string>& words) {
 
 EditCommand command_of(const Arguments& arguments, const Features& features) {
   EditCommand command;
-  command.utime = command.command = now_us();
+  command.utime = command.command = mapping::CommandNumbers().next();
   command.author = arguments.author;
   const std::vector<std::string>& words = arguments.words;
   const std::string& name = arguments.command;
@@ -195,7 +179,7 @@ int print_history(const std::vector<geomap::map_edit_record_t>& records, bool is
 }
 
 int run(Arguments arguments, const messaging::CommonOptions& common) {
-  if (arguments.author.empty()) arguments.author = default_author();
+  if (arguments.author.empty()) arguments.author = mapping::operator_name();
   const auto is_wanted = arguments.where.empty() ? [](const ViewFeature&) { return true; }
                                                  : mapping::parse_filter(arguments.where);
   const auto session =

@@ -45,7 +45,7 @@ bool MapClient::is_current() const {
 
 void MapClient::take(const geomap::map_delta_t& message, Clock::time_point now) {
   if (is_plausible(message, now) && message.revision > revision()) {
-    if (message.revision > revision() + kFarthestAhead) {
+    if (message.revision - kFarthestAhead > revision()) {
       lost_ = true;
     } else if (collect(message, deltas_)) {
       apply_pending();

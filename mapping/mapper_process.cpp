@@ -115,10 +115,10 @@ void MapperProcess::take_request(const geomap::map_request_t& request) {
       }
       break;
     case Request::SAVE:
-      save(request.name);
+      answer(request, [&] { return save(request.name); });
       break;
     case Request::LOAD:
-      load(request.name);
+      answer(request, [&] { return load(request.name); });
       break;
     default:
       live_.reject(channels::kMapRequest, "unknown_kind");
@@ -158,17 +158,44 @@ void MapperProcess::replace_map(GeometricMap map, ViewCause cause) {
   edits_.publish_all(view_.view());
 }
 
-void MapperProcess::save(const std::string& name) {
-  if (!journal_) throw std::runtime_error("SAVE: maps are saved only with --state DIR");
-  save_map(journal_->file_of(name), map_);
-  messaging::log_info("map saved as " + journal_->file_of(name).string());
+// What is thrown goes on to the handler's edge, which counts and logs it.
+void MapperProcess::answer(const geomap::map_request_t& request,
+                           const std::function<std::string()>& task) {
+  try {
+    acknowledge(request, true, task());
+  } catch (const std::exception& error) {
+    acknowledge(request, false, error.what());
+    throw;
+  }
 }
 
-void MapperProcess::load(const std::string& name) {
-  if (!journal_) throw std::runtime_error("LOAD: maps are loaded only with --state DIR");
+void MapperProcess::acknowledge(const geomap::map_request_t& request, bool is_done,
+                                const std::string& text) {
+  if (request.utime == 0) return;
+  geomap::map_edit_reply_t reply{};
+  reply.utime = map_.history().newest();
+  reply.command = request.utime;
+  reply.author = request.author;
+  reply.epoch = view_.view().epoch;
+  reply.revision = view_.view().revision;
+  reply.done = is_done ? 1 : 0;
+  reply.text = text;
+  live_.publish(channels::kMapEditReply, reply);
+}
+
+std::string MapperProcess::save(const std::string& name) {
+  if (!journal_) throw std::runtime_error("maps are saved only with --state DIR");
+  save_map(journal_->file_of(name), map_);
+  messaging::log_info("map saved as " + journal_->file_of(name).string());
+  return "map saved as " + name;
+}
+
+std::string MapperProcess::load(const std::string& name) {
+  if (!journal_) throw std::runtime_error("maps are loaded only with --state DIR");
   const std::filesystem::path file = journal_->file_of(name);
   replace_map(reopen(load_map(file), config_.merge, config_.history), ViewCause::kLoad);
   messaging::log_info("map loaded from " + file.string());
+  return "map loaded from " + name;
 }
 
 void MapperProcess::publish(const MapChange& change, ViewCause cause) {

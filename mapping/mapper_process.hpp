@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -29,6 +30,10 @@ MapperConfig read_mapper_config(const messaging::Config& config);
 /// @brief geomap-mapper: PLANES and operators' edits in, the geometric map and the operator's view
 /// of it out. Key frames that registration moves or removes are moved and removed here too. With a
 /// journal the map outlives the process.
+///
+/// MAP_REQUEST SAVE and LOAD are answered as edits are, with MAP_EDIT_REPLY: `command` is the
+/// request's utime, `author` its author, `edit` 0, and the text says what was done or why not. A
+/// request with utime 0 has no number, and is not answered.
 class MapperProcess {
  public:
   /// @param journal not opened yet; null: nothing is stored. @throws as EventJournal::open.
@@ -49,8 +54,11 @@ class MapperProcess {
   void apply(const std::string& channel, const MapEvent& event, ViewCause cause);
   void store(const MapEvent& event);
   void replace_map(GeometricMap map, ViewCause cause);
-  void save(const std::string& name);
-  void load(const std::string& name);
+  void answer(const geomap::map_request_t& request, const std::function<std::string()>& task);
+  void acknowledge(const geomap::map_request_t& request, bool is_done, const std::string& text);
+  // These return what was done, in words.
+  std::string save(const std::string& name);
+  std::string load(const std::string& name);
   void publish(const MapChange& change, ViewCause cause);
   void report_trouble();
 

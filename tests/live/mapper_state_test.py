@@ -58,9 +58,9 @@ class MapperState(unittest.TestCase):
         return mapper
 
     @classmethod
-    def request(cls, kind, name=""):
+    def request(cls, kind, name="", utime=0):
         message = cls.types.map_request_t()
-        message.kind, message.author, message.name = kind, "test", name
+        message.kind, message.author, message.name, message.utime = kind, "test", name, utime
         cls.publisher.send("MAP_REQUEST", message.encode())
 
     @classmethod
@@ -177,6 +177,20 @@ class MapperState(unittest.TestCase):
         self.assertEqual(mapper.stop(), 0)
         self.assertEqual(mapper.map_hash(), self.hashes[3])
         self.assertEqual(mapper.value("failed.MAP_REQUEST"), 4)
+
+    def test_a_save_is_answered_in_words(self):
+        def answer(name, utime):
+            data = self.listener.wait_for(
+                "MAP_EDIT_REPLY", lambda data: self.types.map_edit_reply_t.decode(data).command == utime,
+                after=lambda: self.request(self.types.map_request_t.SAVE, name, utime))
+            reply = self.types.map_edit_reply_t.decode(data)
+            self.assertEqual(reply.author, "test")
+            return bool(reply.done), reply.text
+
+        mapper = self.start_and_wait(self.folder / "answers")
+        self.assertEqual(answer("one", 11), (True, "map saved as one"))
+        self.assertEqual(answer("../one", 12), (False, "'../one' is no name for a map"))
+        self.assertEqual(mapper.stop(), 0)
 
     def test_a_late_joiner_has_the_map_within_two_seconds_of_asking(self):
         mapper = self.start_and_wait(self.folder / "late")
