@@ -26,6 +26,7 @@
 #include "messaging/safe_decode.hpp"
 #include "messaging/stopwatch.hpp"
 #include "perception/keyframe_messages.hpp"
+#include "perception/point_map_messages.hpp"
 #include "perception/point_map_ply.hpp"
 #include "perception/sensor_messages.hpp"
 
@@ -121,6 +122,18 @@ class DerivedLog {
       writer_->write(channel, utime, message);
     });
   }
+  // What the newest key frame has changed in the point map.
+  void write_points(const perception::TrackedFrame& frame, perception::Tracker& tracker) {
+    if (!writer_ || frame.tracked.status != perception::TrackStatus::kKeyframe) return;
+    const perception::VoxelMap& voxels = tracker.point_map().voxels();
+    for (geomap::point_map_update_t& update :
+         perception::to_messages(voxels, tracker.take_changed_blocks(), false)) {
+      update.utime = frame.message.utime;
+      update.session = *messages_.session();
+      update.sequence = ++points_sequence_;
+      writer_->write(channels::kPointMap, update.utime, update);
+    }
+  }
   void write(const KeyframeRecord& record, const mapping::Observation& observation) {
     if (!writer_) return;
     const messaging::PlaneSet planes{record.id,           *messages_.session(),
@@ -136,6 +149,7 @@ class DerivedLog {
   std::optional<messaging::LogWriter> writer_;
   perception::TrackingMessages messages_;
   std::int64_t planes_sequence_ = 0;
+  std::int64_t points_sequence_ = 0;
 };
 
 DataReduction reduction_of(const Pipeline& pipeline, const std::filesystem::path& map_file) {
@@ -193,7 +207,10 @@ ReplayResult replay(const ReplayOptions& options, const messaging::Config& confi
   Pass first(settings, options.threads, correction);
   DerivedLog derived(options.log_out);
   GrowthPictures pictures(options.pictures_every);
-  first.pipeline.on_tracked([&](const perception::TrackedFrame& frame) { derived.write(frame); });
+  first.pipeline.on_tracked([&](const perception::TrackedFrame& frame) {
+    derived.write(frame);
+    derived.write_points(frame, first.pipeline.tracking().tracker());
+  });
   first.pipeline.on_keyframe([&](const KeyframeRecord& record,
                                  const mapping::Observation& observation,
                                  const mapping::MapChange& change) {

@@ -17,7 +17,7 @@ struct ReplayOptions {
   int pictures_every = 0;        // key frames between two pictures of the growing map; 0: none
   int passes = 1;                // over the whole log, for timings; all must give the same map
   std::string camera;            // camera file whose depth correction every frame gets; empty: none
-  std::string log_out;  // log for derived messages (CAMERA_POSE, KEYFRAME, ...); empty: none
+  std::string log_out;           // log for derived messages (KEYFRAME, POINT_MAP, ...); empty: none
 };
 
 /// @brief Outcome of a replay.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,7 @@
 #include "messaging/config_checks.hpp"
 #include "messaging/convert_frame.hpp"
 #include "messaging/convert_geometry.hpp"
+#include "messaging/convert_points.hpp"
 #include "messaging/encode.hpp"
 #include "messaging/safe_decode.hpp"
 #include "messaging/temporary_folder.hpp"
@@ -147,6 +149,27 @@ TEST_F(Replay, ThePlanesOfItsDerivedLogFoldToTheSameMap) {
     map.apply(observation);
   }
   EXPECT_EQ(mapping::map_hash(map.features()), result.report.map.hash);
+}
+
+TEST_F(Replay, ThePointMapOfItsDerivedLogIsThatOfThePipeline) {
+  ReplayOptions options;
+  options.log_out = path("derived.lcmlog");
+  const ReplayResult result = replay_events(testing::synthetic_log(20), options);
+  std::map<std::array<std::int32_t, 3>, std::size_t> points;  // by block
+  std::int64_t sequence = 0;
+  messaging::LogReader reader(options.log_out);
+  while (const auto event = reader.next()) {
+    if (event->channel != messaging::channels::kPointMap) continue;
+    const auto message =
+        messaging::safe_decode<geomap::point_map_update_t>(event->data.data(), event->data.size());
+    EXPECT_EQ(message.message.value().sequence, ++sequence);
+    const auto blocks = messaging::from_message(*message.message);
+    ASSERT_TRUE(blocks);
+    for (const messaging::PointBlock& block : *blocks) points[block.index] = block.points.size();
+  }
+  std::int64_t sum = 0;
+  for (const auto& [index, count] : points) sum += static_cast<std::int64_t>(count);
+  EXPECT_EQ(sum, result.report.reduction.point_map_points);
 }
 
 TEST_F(Replay, ThreadsAndPassesDoNotChangeTheMap) {
