@@ -24,7 +24,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"mapping", {"geometry", "messaging"}},
     {"viewer", {"geometry", "messaging", "mapping"}},
     {"logs", {"geometry", "messaging", "drivers", "perception", "mapping"}},
-    {"bench", {"geometry", "messaging", "drivers", "perception", "mapping", "logs", "support"}},
+    {"bench",
+     {"geometry", "messaging", "drivers", "perception", "mapping", "logs", "support", "viewer"}},
     {"tests",
      {"geometry", "messaging", "drivers", "perception", "mapping", "viewer", "logs", "support"}},
 };

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What it takes to draw a saved map and a point map, off the screen, while the eye goes round.
+#include <epoxy/gl.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "mapping/map_journal.hpp"
+#include "messaging/program.hpp"
+#include "messaging/stopwatch.hpp"
+#include "statistics.hpp"
+#include "viewer/framebuffer.hpp"
+#include "viewer/offscreen.hpp"
+#include "viewer/png_file.hpp"
+#include "viewer/renderers.hpp"
+
+namespace {
+
+using namespace geomap;
+using Eigen::Vector3d;
+using viewer::SceneModel;
+
+constexpr int kWidth = 1280, kHeight = 800;
+constexpr int kFrames = 120;
+constexpr double kBlock = 1.0;  // side of a block of points [m]
+
+struct Options {
+  std::string map, picture;
+  std::int64_t points = 200'000;
+  std::int64_t budget = 60'000;
+};
+
+void add_map(const std::string& file, SceneModel& scene) {
+  for (const mapping::MapFeature& feature :
+       mapping::snapshot_of(mapping::load_map(file)).features) {
+    scene.map.features.emplace(feature.id, mapping::quantised(feature));
+  }
+  scene.map.stamp = 1;
+}
+
+// Scattered evenly over the walls, the floor and the ceiling of the box, which is a room's.
+void add_points(const Eigen::AlignedBox3d& box, std::int64_t points, SceneModel& scene) {
+  std::mt19937 random(1);
+  const auto share = [&] { return static_cast<double>(random()) / 4294967296.0; };
+  std::map<viewer::BlockKey, std::vector<viewer::ScenePoint>> blocks;
+  for (std::int64_t i = 0; i < points; ++i) {
+    Vector3d at(share(), share(), share());
+    const auto axis = static_cast<Eigen::Index>(random() % 3);
+    at[axis] = std::round(at[axis]);
+    const auto shade = static_cast<std::uint8_t>(90.0 + 120.0 * at.z());
+    at = box.min() + at.cwiseProduct(box.sizes());
+    const Eigen::Vector3i key = (at / kBlock).array().floor().cast<int>();
+    blocks[{key.x(), key.y(), key.z()}].push_back(
+        {.position = at.cast<float>(), .color = {shade, shade, 160}});
+  }
+  for (auto& [key, block] : blocks) {
+    viewer::PointBlock made{.points = {}, .box = {}, .stamp = 1};
+    for (const auto& point : block) made.box.extend(point.position.cast<double>());
+    made.points = std::make_shared<const std::vector<viewer::ScenePoint>>(std::move(block));
+    scene.points.blocks.emplace(key, std::move(made));
+  }
+  scene.points.points = static_cast<std::size_t>(points);
+  scene.points.stamp = 1;
+}
+
+struct View {
+  const char* name;
+  double nearness;  // distance of the eye against that from which everything is in view
+  viewer::Projection projection;
+};
+
+void time_view(const View& view, const SceneModel& scene, const Options& options,
+               viewer::Framebuffer& framebuffer) {
+  const auto renderers = viewer::make_renderers();
+  const viewer::Theme theme = viewer::dark_theme();
+  const viewer::Selection selection;
+  viewer::ViewCamera camera;
+  camera.resize(kWidth, kHeight);
+  viewer::Viewpoint viewpoint = camera.fitting(scene.bounds());
+  viewpoint.distance *= view.nearness;
+  viewpoint.projection = view.projection;
+  std::vector<double> times;
+  for (int i = 0; i <= kFrames; ++i) {
+    viewpoint.yaw += 2.0 * std::numbers::pi / kFrames;
+    camera.set(viewpoint);
+    const messaging::Stopwatch stopwatch;
+    framebuffer.begin(theme.background);
+    viewer::draw_all(renderers, {scene, camera, selection, theme, 1.0F,
+                                 static_cast<std::size_t>(options.budget)});
+    glFinish();
+    // The first one uploads everything and compiles the shaders.
+    if (i > 0) times.push_back(1e3 * stopwatch.seconds());
+  }
+  std::printf("%9zu  %-12s  %8.1f ms  %8.1f ms  %8.0f\n", scene.points.points, view.name,
+              bench::median(times), bench::quantile(times, 0.95), 1e3 / bench::median(times));
+  std::fflush(stdout);
+}
+
+int run(const Options& options) {
+  const viewer::OffscreenContext context;
+  viewer::Framebuffer framebuffer(kWidth, kHeight);
+  SceneModel scene;
+  add_map(options.map, scene);
+  std::printf("%s, %d x %d, %zu polygons, %lld points drawn at most\n", context.renderer().c_str(),
+              kWidth, kHeight, scene.map.features.size(), static_cast<long long>(options.budget));
+  std::printf("%9s  %-12s  %11s  %11s  %8s\n", "points", "view", "median", "95 %", "per s");
+  add_points(scene.bounds(), options.points, scene);
+  for (const View& view : {View{"whole", 1.0, viewer::Projection::kPerspective},
+                           View{"near", 0.35, viewer::Projection::kPerspective},
+                           View{"orthographic", 1.0, viewer::Projection::kOrthographic}}) {
+    time_view(view, scene, options, framebuffer);
+    if (options.picture.empty()) continue;
+    viewer::write_png(options.picture + "." + view.name + ".png", framebuffer.read());
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  return messaging::run_program(
+      argc, argv,
+      {.name = "viewer_frame_times",
+       .description = "Times the drawing of a saved map and a point map, off the screen.",
+       .uses_config = false},
+      [&](messaging::OptionParser& parser) {
+        parser.positional("MAP", options.map, "saved map");
+        parser.option("--points", options.points, "of a made-up point map around the map");
+        parser.option("--budget", options.budget, "most points that are drawn in a frame");
+        parser.option("--picture", options.picture, "beginning of the names of pictures to write");
+      },
+      [&](const messaging::CommonOptions&) { return run(options); });
+}
