@@ -79,10 +79,14 @@ StatusItem process_item(const std::string& name, const ProcessState& process,
   } else if (process.level != Level::kGood) {
     item.text += ": " + process.message;
   }
+  double slowest = 0.0;
   for (const ProcessState::Stage& stage : process.stages) {
+    slowest = std::max(slowest, stage.p95);
     item.detail += fmt::format("{}: median {:.1f} ms, 95 % {:.1f} ms, longest {:.1f} ms\n",
                                stage.name, 1e3 * stage.p50, 1e3 * stage.p95, 1e3 * stage.max);
   }
+  const bool is_well = item.level == Level::kGood;
+  if (is_well && slowest > 0.0) item.text += fmt::format(" {:.0f} ms", 1e3 * slowest);
   for (const auto& [counter, value] : process.counters) {
     item.detail += fmt::format("{} {}\n", counter, value);
   }

@@ -213,6 +213,4 @@ void ViewerCore::take_mouse(const Layout& layout) {
   }
 }
 
-Image ViewerCore::scene_image() const { return framebuffer_->read(); }
-
 }  // namespace geomap::viewer

@@ -35,9 +35,6 @@ class ViewerCore {
   /// @brief Goes on by itself, as a flight of the camera does: is to be drawn again at once.
   bool is_moving() const;
 
-  /// @brief The drawing of the scene alone, as draw() made it last.
-  Image scene_image() const;
-
  private:
   // All that the drawing of the scene depends on, to know when it is another.
   struct SceneKey {

@@ -16,10 +16,10 @@
 #include "viewer/live_source_client.hpp"
 #include "viewer/log_source_client.hpp"
 #include "viewer/map_file_client.hpp"
+#include "viewer/offscreen_viewer.hpp"
 #include "viewer/open_file_client.hpp"
 #include "viewer/png_file.hpp"
 #include "viewer/preferences.hpp"
-#include "viewer/screenshot.hpp"
 #include "viewer/view_control.hpp"
 #include "viewer/window.hpp"
 
@@ -28,6 +28,8 @@ namespace {
 using namespace geomap;
 
 constexpr double kEndOfTime = 1e9;  // later than that of any log [s]
+constexpr double kSettle = 1.0;     // without anything new, before a picture is taken [s]
+constexpr int kFrames = 2;          // until Dear ImGui has settled
 
 struct Arguments {
   std::string file, map, log, screenshot, view, preferences, theme;
@@ -80,16 +82,16 @@ void seek(viewer::MapSource& source, std::optional<double> at) {
 int make_picture(const Arguments& arguments, std::unique_ptr<viewer::MapSource> source,
                  const viewer::Preferences& preferences) {
   seek(*source, arguments.at);
-  viewer::ScreenshotOptions options;
-  options.width = static_cast<int>(arguments.size[0]);
-  options.height = static_cast<int>(arguments.size[1]);
-  options.scale = arguments.scale > 0.0 ? arguments.scale : 1.0;
-  options.patience = arguments.patience;
-  options.settle = source->is_live() ? 1.0 : 0.0;
-  options.has_panels = arguments.has_panels;
-  options.prepare = [&](viewer::App& app) { prepare(app, arguments.view); };
-  viewer::write_png(arguments.screenshot,
-                    viewer::take_screenshot(std::move(source), preferences, options));
+  const double settle = source->is_live() ? kSettle : 0.0;
+  viewer::OffscreenViewer offscreen(
+      std::move(source), preferences, static_cast<int>(arguments.size[0]),
+      static_cast<int>(arguments.size[1]), arguments.scale > 0.0 ? arguments.scale : 1.0);
+  offscreen.app().are_panels_shown = arguments.has_panels;
+  offscreen.wait_for_scene(settle, arguments.patience);
+  offscreen.draw();
+  prepare(offscreen.app(), arguments.view);  // the size of the drawing is known by now
+  for (int frame = 0; frame < kFrames; ++frame) offscreen.draw();
+  viewer::write_png(arguments.screenshot, offscreen.image());
   fmt::print("{}\n", arguments.screenshot);
   return 0;
 }

@@ -14,6 +14,7 @@ import tempfile
 import time
 import unittest
 
+import live_mapper
 import live_system
 
 MAPPER = "geomap-mapper"
@@ -22,24 +23,7 @@ RESTARTS = 5
 FLOOD = 10_000
 
 
-class Edits(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.temporary.name)
-        cls.log = live_system.simulate(PROGRAMS, cls.folder)
-        derived = cls.folder / "derived.lcmlog"
-        cls.replay(cls.log, "--log-out", str(derived))
-        cls.planes = [data for channel, data in live_system.read_log(derived) if channel == "PLANES"]
-        cls.types = live_system.message_types(cls.folder / "types")
-        cls.utimes = [cls.types.plane_set_t.decode(data).utime for data in cls.planes]
-        cls.listener = live_system.Listener()
-        cls.publisher = live_system.Publisher()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
-
+class Edits(live_mapper.FedMapper):
     def setUp(self):
         self.processes = []
 
@@ -51,29 +35,18 @@ class Edits(unittest.TestCase):
     @classmethod
     def replay(cls, log, *options):
         """map_hash of a replay."""
-        done = subprocess.run([str(PROGRAMS / "geomap-replay"), str(log), "-o",
+        done = subprocess.run([str(cls.programs / "geomap-replay"), str(log), "-o",
                                str(cls.folder / "replay"), *options],
                               check=True, capture_output=True, text=True)
         return re.search(r"map_hash (\w+)", done.stdout)[1]
 
-    def start_mapper(self, *options):
-        started = time.time_ns() // 1000
-        mapper = live_system.Process([str(PROGRAMS / MAPPER), "-l", live_system.UDP, *options],
-                                     self.folder)
-        self.processes.append(mapper)
-        self.listener.wait_for("MAP_SNAPSHOT",
-                               lambda data: self.types.map_t.decode(data).epoch >= started)
-        return mapper
-
-    def feed(self, first, end):
-        for i in range(first, end):
-            self.listener.wait_for(
-                "MAP_DELTA", lambda data: self.types.map_delta_t.decode(data).utime >= self.utimes[i],
-                after=lambda: self.publisher.send("PLANES", self.planes[i]))
+    def start(self, *options):
+        self.processes.append(self.start_mapper(*options))
+        return self.processes[-1]
 
     def edit(self, *words, status=0):
         """What geomap-edit prints."""
-        done = subprocess.run([str(PROGRAMS / "geomap-edit"), words[0], "-l", live_system.UDP,
+        done = subprocess.run([str(self.programs / "geomap-edit"), words[0], "-l", live_system.UDP,
                                "--timeout", "20", *words[1:]],
                               check=False, capture_output=True, text=True)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
@@ -88,7 +61,7 @@ class Edits(unittest.TestCase):
                 if edit["state"] != "undone" and not edit["text"].startswith("undo")]
 
     def hash_without_edits(self):
-        mapper = self.start_mapper()
+        mapper = self.start()
         self.feed(0, len(self.planes))
         self.assertEqual(mapper.stop(), 0)
         return mapper.map_hash()
@@ -99,7 +72,7 @@ class Edits(unittest.TestCase):
         for name, options in (("first", ["--to", "1.4"]), ("second", ["--from", "1.4", "--to", "2.7"]),
                               ("third", ["--from", "2.7"])):
             third = self.folder / f"{name}.lcmlog"
-            subprocess.run([str(PROGRAMS / "geomap-log"), "cut", str(self.log), str(third), *options],
+            subprocess.run([str(self.programs / "geomap-log"), "cut", str(self.log), str(third), *options],
                            check=True, capture_output=True)
             thirds.append(third)
         return thirds
@@ -107,7 +80,7 @@ class Edits(unittest.TestCase):
     def test_a_log_with_edits_gives_the_edited_map_in_one_process_and_through_all(self):
         first, second, third = self.thirds()
         log = self.folder / "edited.lcmlog"
-        system = live_system.System(PROGRAMS, self.folder).start_all()
+        system = live_system.System(self.programs, self.folder).start_all()
         self.processes += system.stages.values()
         logger = live_system.Process(["lcm-logger", "-q", f"--lcm-url={live_system.UDP}", "-c", EDITS,
                                       str(log)], self.folder)
@@ -139,7 +112,7 @@ class Edits(unittest.TestCase):
         self.assertEqual(self.replay(log), live)
         self.assertEqual(self.replay(log, "--threads", "3"), live)
 
-        again = live_system.System(PROGRAMS, self.folder, options=["--lossless"]).start_all()
+        again = live_system.System(self.programs, self.folder, options=["--lossless"]).start_all()
         self.processes += again.stages.values()
         subprocess.run(["lcm-logplayer", "-e", EDITS, "-l", live_system.UDP, str(log)], check=True,
                        capture_output=True)
@@ -154,7 +127,7 @@ class Edits(unittest.TestCase):
         chance = random.Random(3)
         for turn in range(RESTARTS):
             state = self.folder / f"killed{turn}"
-            mapper = self.start_mapper("--state", str(state))
+            mapper = self.start("--state", str(state))
             kill_at = chance.randrange(1, len(self.planes))
             self.feed(0, 1)
             for i in range(1, len(self.planes)):
@@ -162,13 +135,13 @@ class Edits(unittest.TestCase):
                 words = chance.choice([["label", number, "wall"], ["lock", number],
                                        ["move", number, "--translate", "0.1,0,0.2"],
                                        ["delete", number]])
-                command = subprocess.Popen([str(PROGRAMS / "geomap-edit"), words[0], "-l",
+                command = subprocess.Popen([str(self.programs / "geomap-edit"), words[0], "-l",
                                             live_system.UDP, *words[1:]], stdout=subprocess.PIPE,
                                            stderr=subprocess.PIPE, text=True)
                 if i == kill_at:
                     time.sleep(chance.uniform(0.0, 0.05))
                     mapper.stop(signal.SIGKILL)
-                    mapper = self.start_mapper("--state", str(state))
+                    mapper = self.start("--state", str(state))
                 answer, _ = command.communicate()
                 done = re.match(r"edit (\d+)", answer)
                 if done:  # what was answered is there
@@ -202,7 +175,7 @@ class Edits(unittest.TestCase):
             "MAP_EDIT_REPLY", is_it, after=lambda: self.publisher.send("MAP_EDIT", data)))
 
     def test_two_operators_are_each_told_and_a_command_sent_twice_is_done_once(self):
-        mapper = self.start_mapper()
+        mapper = self.start()
         self.feed(0, 4)
         kinds = self.types.map_edit_t
         table = self.features()[-1]["id"]
@@ -220,7 +193,7 @@ class Edits(unittest.TestCase):
 
     def test_a_command_that_is_sent_again_after_a_kill_is_not_done_again(self):
         state = str(self.folder / "again")
-        mapper = self.start_mapper("--state", state)
+        mapper = self.start("--state", state)
         self.feed(0, 4)
         kinds = self.types.map_edit_t
         epoch = self.types.map_t.decode(self.listener.messages["MAP_SNAPSHOT"][-1]).epoch
@@ -228,7 +201,7 @@ class Edits(unittest.TestCase):
         command = self.send(kinds.MOVE, "ann", 5, [known], epoch=epoch)
         first = self.answer(command, "ann", 5)
         mapper.stop(signal.SIGKILL)
-        mapper = self.start_mapper("--state", state)
+        mapper = self.start("--state", state)
         again = self.answer(command, "ann", 5)
         self.assertEqual((first.done, again.done, first.edit, again.edit), (True, True, 1, 1))
         refused = self.send(kinds.REDO, "ann", 6)
@@ -238,7 +211,7 @@ class Edits(unittest.TestCase):
         self.assertEqual(mapper.stop(), 0)
 
     def test_a_dry_run_changes_nothing(self):
-        mapper = self.start_mapper()
+        mapper = self.start()
         self.feed(0, len(self.planes))
         self.assertIn("would be edit 1: delete", self.edit("delete", "1", "--dry-run"))
         self.assertIn("no edits", self.edit("history"))
@@ -247,7 +220,7 @@ class Edits(unittest.TestCase):
 
     def test_nonsense_and_floods_are_answered_or_counted_and_leave_the_map_alone(self):
         expected = self.hash_without_edits()
-        mapper = self.start_mapper()
+        mapper = self.start()
         self.feed(0, len(self.planes))
         kinds = self.types.map_edit_t
         corner, far, bad = (self.types.point_t() for _ in range(3))
@@ -290,5 +263,5 @@ class Edits(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAMS = live_system.enter_namespace(sys.argv[1])
+    Edits.programs = live_system.enter_namespace(sys.argv[1])
     unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)

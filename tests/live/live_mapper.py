@@ -11,9 +11,9 @@ import live_system
 
 
 class FedMapper(unittest.TestCase):
-    """Its planes are those of a robot that turns before the kitchen; PROGRAMS is the test's."""
+    """Its planes are those of a robot that turns before the kitchen."""
 
-    programs = None
+    programs = None  # folder, set by the test's main
 
     @classmethod
     def setUpClass(cls):
@@ -36,12 +36,17 @@ class FedMapper(unittest.TestCase):
         cls.temporary.cleanup()
 
     @classmethod
-    def start_mapper(cls, *options, prefix="", command=()):
-        """Returns once it publishes."""
-        started = time.time_ns() // 1000
-        mapper = live_system.Process(
+    def launch_mapper(cls, *options, prefix="", command=()):
+        """command: that shall run it."""
+        return live_system.Process(
             [*command, str(cls.programs / "geomap-mapper"), "-l", live_system.UDP, *options,
              *(["--channel-prefix", prefix] if prefix else [])], cls.folder)
+
+    @classmethod
+    def start_mapper(cls, *options, prefix="", command=()):
+        """Returns once it publishes; it is silent for a second."""
+        started = time.time_ns() // 1000
+        mapper = cls.launch_mapper(*options, prefix=prefix, command=command)
         cls.listener.wait_for(prefix + "MAP_SNAPSHOT",
                               lambda data: cls.types.map_t.decode(data).epoch >= started)
         return mapper
@@ -59,10 +64,10 @@ class FedMapper(unittest.TestCase):
             cls.feed_one(cls.utimes[i], cls.planes[i])
 
     @classmethod
-    def request(cls, kind, name=""):
+    def request(cls, kind, name="", utime=0):
+        """utime: 0 has no number and is not answered."""
         message = cls.types.map_request_t()
-        message.kind, message.author, message.name = kind, "test", name
-        message.utime = time.time_ns() // 1000
+        message.kind, message.author, message.name, message.utime = kind, "test", name, utime
         cls.publisher.send("MAP_REQUEST", message.encode())
 
     @classmethod

@@ -16,6 +16,7 @@ import tempfile
 import time
 import unittest
 
+import live_mapper
 import live_system
 
 MAPPER = "geomap-mapper"
@@ -23,65 +24,15 @@ KILLS = 100
 AT_ONCE = 10
 
 
-class MapperState(unittest.TestCase):
+class MapperState(live_mapper.FedMapper):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.temporary.name)
-        log = live_system.simulate(PROGRAMS, cls.folder)
-        derived = cls.folder / "derived.lcmlog"
-        subprocess.run([str(PROGRAMS / "geomap-replay"), str(log), "-o", str(cls.folder / "replay"),
-                        "--log-out", str(derived)], check=True, capture_output=True)
-        cls.planes = [data for channel, data in live_system.read_log(derived) if channel == "PLANES"]
-        cls.types = live_system.message_types(cls.folder / "types")
-        cls.utimes = [cls.types.plane_set_t.decode(data).utime for data in cls.planes]
-        cls.listener = live_system.Listener()
-        cls.publisher = live_system.Publisher()
+        super().setUpClass()
         cls.hashes = cls.hashes_by_key_frames()
 
     @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
-
-    @classmethod
-    def start(cls, state, prefix="", command=()):
-        return live_system.Process(
-            [*command, str(PROGRAMS / MAPPER), "-l", live_system.UDP, "--state", str(state),
-             *(["--channel-prefix", prefix] if prefix else [])], cls.folder)
-
-    @classmethod
     def start_and_wait(cls, state, prefix="", command=()):
-        started = time.time_ns() // 1000
-        mapper = cls.start(state, prefix, command)  # which is silent for a second
-        cls.listener.wait_for(prefix + "MAP_SNAPSHOT",
-                              lambda data: cls.types.map_t.decode(data).epoch >= started)
-        return mapper
-
-    @classmethod
-    def request(cls, kind, name="", utime=0):
-        message = cls.types.map_request_t()
-        message.kind, message.author, message.name, message.utime = kind, "test", name, utime
-        cls.publisher.send("MAP_REQUEST", message.encode())
-
-    @classmethod
-    def feed(cls, first, end):
-        """Sends key frames and waits until the last one is acknowledged."""
-        for i in range(first, end):
-            cls.listener.wait_for(
-                "MAP_DELTA", lambda data: cls.types.map_delta_t.decode(data).utime >= cls.utimes[i],
-                after=lambda: cls.publisher.send("PLANES", cls.planes[i]))
-
-    @classmethod
-    def saved_hash(cls, state, name):
-        """map_hash of a map that was saved by name."""
-        file, exported = state / f"{name}.lcmlog", cls.folder / "saved.json"
-        for _ in range(200):
-            if file.exists():
-                break
-            time.sleep(0.02)
-        subprocess.run([str(PROGRAMS / "geomap-export"), str(file), str(exported)], check=True,
-                       capture_output=True)
-        return json.loads(exported.read_text())["hash"]
+        return cls.start_mapper("--state", str(state), prefix=prefix, command=command)
 
     @classmethod
     def hashes_by_key_frames(cls):
@@ -238,7 +189,7 @@ class MapperState(unittest.TestCase):
     def test_a_folder_serves_one_mapper(self):
         state = self.folder / "shared"
         first = self.start_and_wait(state)
-        second = self.start(state, prefix="elsewhere/")
+        second = self.launch_mapper("--state", str(state), prefix="elsewhere/")
         second.process.wait(10)
         self.assertEqual(second.stop(), 1)
         self.assertIn("another process uses it", second.errors)
@@ -246,5 +197,5 @@ class MapperState(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAMS = live_system.enter_namespace(sys.argv[1])
+    MapperState.programs = live_system.enter_namespace(sys.argv[1])
     unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The operator's window before a running mapper, worked with mouse and keys.
 
-usage: viewer_test.py FOLDER_OF_PROGRAMS [unittest arguments]
+usage: operator_test.py FOLDER_OF_PROGRAMS [unittest arguments]
 """
 import json
 import math
@@ -45,7 +45,7 @@ class Display:
         self.process.wait()
 
 
-class Viewer(live_mapper.FedMapper):
+class Operator(live_mapper.FedMapper):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -79,7 +79,7 @@ class Viewer(live_mapper.FedMapper):
         else:
             os.environ["DISPLAY"] = self.display.name
             process = live_system.Process(
-                [str(PROGRAMS / "geomap-viewer"), "-l", live_system.UDP, "--preferences",
+                [str(self.programs / "geomap-viewer"), "-l", live_system.UDP, "--preferences",
                  str(self.preferences), "--size", f"{WIDTH},{HEIGHT}", *options], self.folder)
         self.processes.append(process)
         return process
@@ -130,7 +130,7 @@ class Viewer(live_mapper.FedMapper):
     def offline(self, file, *words):
         """map_hash after an edit of a saved map, by geomap-edit."""
         out = self.folder / "expected.lcmlog"
-        subprocess.run([str(PROGRAMS / "geomap-edit"), words[0], "--map", str(file), "-o", str(out),
+        subprocess.run([str(self.programs / "geomap-edit"), words[0], "--map", str(file), "-o", str(out),
                         *words[1:]], check=True, capture_output=True)
         return self.exported(out)["hash"]
 
@@ -295,9 +295,8 @@ def polygon_height_of_level(feature):
 
 
 if __name__ == "__main__":
-    PROGRAMS = live_system.enter_namespace(sys.argv[1])
+    Operator.programs = live_system.enter_namespace(sys.argv[1])
     MISSING = [tool for tool in ("Xvfb", "xdotool") if shutil.which(tool) is None]
     if MISSING:
         live_system.skip("not installed: " + ", ".join(MISSING))
-    Viewer.programs = PROGRAMS
     unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)
