@@ -130,6 +130,7 @@ void MapClient::take_snapshot(std::int64_t revision) {
     return;
   }
   view_ = std::move(*snapshot);
+  ++changes_;
   hash_.reset();
   lost_ = false;
   apply_pending();
@@ -146,7 +147,10 @@ void MapClient::apply_pending() {
   drop_through(deltas_, revision());
   while (!deltas_.empty() && deltas_.begin()->first == revision() + 1 &&
          is_complete(deltas_.begin()->second)) {
-    if (view_.epoch != epoch_) view_ = MapView{0, *epoch_, 0, {}};  // every epoch begins empty
+    if (view_.epoch != epoch_) {
+      view_ = MapView{0, *epoch_, 0, {}};  // every epoch begins empty
+      ++changes_;
+    }
     const auto delta = from_messages(in_order(deltas_.begin()->second), view_);
     drop_through(deltas_, revision() + 1);
     if (!delta) {
@@ -155,6 +159,7 @@ void MapClient::apply_pending() {
       break;
     }
     apply(*delta, view_);
+    ++changes_;
     hash_.reset();
   }
   drop_through(snapshots_, revision());

@@ -34,6 +34,8 @@ class MapClient {
 
   /// @brief The newest complete view. That of a former mapper stays until the next one's is there.
   const MapView& view() const { return view_; }
+  /// @brief Grows with every change of the view, so that nobody needs to compare whole maps.
+  std::uint64_t changes() const { return changes_; }
   /// @brief True when nothing is known to be missing.
   bool is_current() const;
   /// @brief Messages that could not be used: not sound, or of a former mapper.
@@ -57,6 +59,7 @@ class MapClient {
 
   std::function<void()> request_snapshot_;
   MapView view_;
+  std::uint64_t changes_ = 0;
   std::optional<std::string> hash_;    // of view_, once it was needed
   std::optional<std::int64_t> epoch_;  // of the mapper that is followed
   Clock::time_point heard_;            // newest message of this epoch

@@ -124,6 +124,22 @@ TEST_F(MapClientTest, DeltasInOrderEqualTheSnapshot) {
   EXPECT_GE(absorbed, 5U);
 }
 
+TEST_F(MapClientTest, ChangesAreCountedAndNothingElse) {
+  EXPECT_EQ(client_.changes(), 0U);
+  give(mapper_.change());
+  EXPECT_GT(client_.changes(), 0U);
+  const std::uint64_t changes = client_.changes();
+  give(mapper_.snapshot());  // of what it has seen
+  wait(5s);
+  EXPECT_EQ(client_.changes(), changes);
+  give(mapper_.change());
+  EXPECT_EQ(client_.changes(), changes + 1);
+  mapper_.change();
+  mapper_.change();
+  give(mapper_.snapshot());
+  EXPECT_EQ(client_.changes(), changes + 2);
+}
+
 TEST_F(MapClientTest, WhatItSeesIsTheMapWithinTheTolerance) {
   for (int i = 0; i < 60; ++i) {
     give(mapper_.change());
