@@ -37,6 +37,8 @@ struct Options {
   std::string map, picture;
   std::int64_t points = 200'000;
   std::int64_t budget = 60'000;
+  std::int64_t polygons = 0;
+  std::int64_t vetoes = 0;
 };
 
 void add_map(const std::string& file, SceneModel& scene) {
@@ -47,13 +49,52 @@ void add_map(const std::string& file, SceneModel& scene) {
   scene.map.stamp = 1;
 }
 
+// From 0 to 1: the same on every machine, which the standard distributions are not.
+double share(std::mt19937& random) { return static_cast<double>(random()) / 4294967296.0; }
+
+// Squares of 0.2 to 0.6 m anywhere in the box, along its axes.
+std::vector<mapping::MapFeature> made_up_squares(const Eigen::AlignedBox3d& box,
+                                                 std::int64_t count) {
+  std::mt19937 random(2);
+  std::vector<mapping::MapFeature> squares;
+  for (std::int64_t i = 0; i < count; ++i) {
+    mapping::MapFeature square;
+    square.id = {i + 1, static_cast<int>(i % 7)};
+    const auto axis = static_cast<Eigen::Index>(random() % 3);
+    geometry::PlaneFrame& frame = square.surface.frame;
+    frame.normal = Vector3d::Unit(axis);
+    frame.x_axis = Vector3d::Unit((axis + 1) % 3);
+    const Vector3d at(share(random), share(random), share(random));
+    frame.origin = box.min() + at.cwiseProduct(box.sizes());
+    const double half = 0.1 + 0.2 * share(random);
+    square.surface.plane = frame.plane();
+    square.surface.polygon.parts = {
+        {.outer = geometry::rectangle({-half, -half}, {half, half}), .holes = {}}};
+    squares.push_back(square);
+  }
+  return squares;
+}
+
+void add_squares(const Options& options, SceneModel& scene) {
+  const Eigen::AlignedBox3d box = scene.bounds();
+  if (options.polygons > 0) scene.map.features.clear();
+  for (const mapping::MapFeature& square : made_up_squares(box, options.polygons)) {
+    scene.map.features.emplace(square.id, mapping::quantised(square));
+  }
+  for (const mapping::MapFeature& square : made_up_squares(box, options.vetoes)) {
+    scene.map.vetoes.push_back({.edit = 1,
+                                .cause = mapping::VetoCause::kDeleted,
+                                .feature = square,
+                                .region = square.surface.polygon});
+  }
+}
+
 // Scattered evenly over the walls, the floor and the ceiling of the box, which is a room's.
 void add_points(const Eigen::AlignedBox3d& box, std::int64_t points, SceneModel& scene) {
   std::mt19937 random(1);
-  const auto share = [&] { return static_cast<double>(random()) / 4294967296.0; };
   std::map<viewer::BlockKey, std::vector<viewer::ScenePoint>> blocks;
   for (std::int64_t i = 0; i < points; ++i) {
-    Vector3d at(share(), share(), share());
+    Vector3d at(share(random), share(random), share(random));
     const auto axis = static_cast<Eigen::Index>(random() % 3);
     at[axis] = std::round(at[axis]);
     const auto shade = static_cast<std::uint8_t>(90.0 + 120.0 * at.z());
@@ -108,8 +149,9 @@ void time_view(const View& view, const SceneModel& scene, const Options& options
 void time_views(const SceneModel& scene, const Options& options) {
   const viewer::OffscreenContext context;
   viewer::Framebuffer framebuffer(kWidth, kHeight);
-  std::printf("%s, %d x %d, %zu polygons, %lld points drawn at most\n", context.renderer().c_str(),
-              kWidth, kHeight, scene.map.features.size(), static_cast<long long>(options.budget));
+  std::printf("%s, %d x %d, %zu polygons, %zu vetoes, %lld points drawn at most\n",
+              context.renderer().c_str(), kWidth, kHeight, scene.map.features.size(),
+              scene.map.vetoes.size(), static_cast<long long>(options.budget));
   std::printf("%9s  %-12s  %11s  %11s  %8s\n", "points", "view", "median", "95 %", "per s");
   for (const View& view : {View{"whole", 1.0, viewer::Projection::kPerspective},
                            View{"near", 0.35, viewer::Projection::kPerspective},
@@ -163,6 +205,7 @@ void time_window(const SceneModel& scene) {
 int run(const Options& options) {
   SceneModel scene;
   add_map(options.map, scene);
+  add_squares(options, scene);
   add_points(scene.bounds(), options.points, scene);
   time_views(scene, options);
   time_window(scene);
@@ -182,6 +225,8 @@ int main(int argc, char** argv) {
         parser.positional("MAP", options.map, "saved map");
         parser.option("--points", options.points, "of a made-up point map around the map");
         parser.option("--budget", options.budget, "most points that are drawn in a frame");
+        parser.option("--polygons", options.polygons, "made-up squares in place of the map's own");
+        parser.option("--vetoes", options.vetoes, "made-up squares that are kept out");
         parser.option("--picture", options.picture, "beginning of the names of pictures to write");
       },
       [&](const messaging::CommonOptions&) { return run(options); });

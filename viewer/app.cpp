@@ -26,6 +26,15 @@ App::App(std::unique_ptr<MapSource> source, Preferences given)
   }
 }
 
+void run(App& app, const Action& action) {
+  const std::string obstacle = action.obstacle();
+  if (obstacle.empty()) {
+    action.run();
+  } else {
+    app.workbench.tell(Level::kDegraded, std::string(action.name).append(": ").append(obstacle));
+  }
+}
+
 void App::start(Tool& next) {
   cancel();
   const std::string missing = next.begin();
@@ -46,6 +55,29 @@ void App::cancel() {
   if (!tool) return;
   tool->end();
   tool = nullptr;
+}
+
+void App::quit() {
+  if (workbench.has_unsaved_edits()) {
+    ask(Dialog::kQuit);
+  } else {
+    wants_quit = true;
+  }
+}
+
+void App::save() {
+  std::filesystem::path file = answer;
+  if (!workbench.source().is_live() && !file.has_extension()) file += ".lcmlog";
+  answer = file.string();
+  const bool is_other_file = !workbench.source().is_live() &&
+                             answer != workbench.source().default_save_name() &&
+                             std::filesystem::exists(file);
+  if (is_other_file && dialog != Dialog::kReplace) {
+    ask(Dialog::kReplace, answer);
+    return;
+  }
+  dialog = Dialog::kNone;
+  workbench.save(answer);
 }
 
 void App::ask(Dialog next, const std::string& text) {

@@ -20,7 +20,7 @@
 namespace geomap::viewer {
 
 /// @brief A question to the operator that waits for its answer.
-enum class Dialog { kNone, kConfirmDelete, kLabel, kSave, kExport };
+enum class Dialog { kNone, kConfirmDelete, kLabel, kSave, kReplace, kExport, kOpen, kQuit };
 
 /// @brief What the operator can have done, by key, button or menu: the help is made of this list.
 struct Action {
@@ -31,7 +31,7 @@ struct Action {
   bool control = false, shift = false;
   const char* key_text = "";
   bool is_button = false;
-  std::function<bool()> is_possible = [] { return true; };
+  std::function<std::string()> obstacle = {};  // why it cannot be done now; empty: it can
   std::function<void()> run = {};
 };
 
@@ -58,18 +58,26 @@ class App {
   bool are_panels_shown = true;
   bool wants_screenshot = false, is_filming = false, wants_fullscreen = false, wants_quit = false;
   Dialog dialog = Dialog::kNone;
-  std::string answer;        // being typed
-  std::string search;        // of the list
-  Stamp settings_stamp = 0;  // grows when something is to be drawn otherwise
+  std::string answer;                // being typed
+  std::filesystem::path wants_open;  // a file to look at in place of what is there
+  std::string search;                // of the list
+  Stamp settings_stamp = 0;          // grows when something is to be drawn otherwise
 
   void start(Tool& tool);
   /// @brief Goes on after a tool has done its work.
   void update_tool();
   void cancel();
+  /// @brief Ends the viewer, or asks first where edits would be lost.
+  void quit();
+  /// @brief Saves, or asks first where another file would be lost.
+  void save();
   void ask(Dialog dialog, const std::string& answer = "");
   void set_theme(bool is_dark);
   void store_preferences();
 };
+
+/// @brief Does it, or tells the operator why it cannot be done.
+void run(App& app, const Action& action);
 
 /// @brief The list of all actions upon an app, which outlives it.
 std::vector<Action> make_actions(App& app);

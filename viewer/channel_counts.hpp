@@ -14,4 +14,7 @@ void note_arrival(std::size_t bytes, Clock::time_point now, ChannelState& channe
 /// them.
 void update_rate(Clock::time_point now, ChannelState& channel);
 
+/// @brief What went missing or was refused in the last minute, from how both numbers have grown.
+void update_troubles(Clock::time_point now, ChannelState& channel);
+
 }  // namespace geomap::viewer

@@ -11,16 +11,55 @@
 namespace geomap::viewer {
 namespace {
 
-constexpr const char* kTitle = "geomap";
 constexpr std::array<const char*, 5> kLabels = {"wall", "floor", "ceiling", "table", "door"};
+
+const char* title(Dialog dialog) {
+  switch (dialog) {
+    case Dialog::kConfirmDelete:
+      return "Delete";
+    case Dialog::kLabel:
+      return "Label";
+    case Dialog::kSave:
+      return "Save the map";
+    case Dialog::kReplace:
+      return "Replace the file";
+    case Dialog::kExport:
+      return "Export the map";
+    case Dialog::kOpen:
+      return "Open";
+    case Dialog::kQuit:
+      return "Edits are not saved";
+    case Dialog::kNone:
+      break;
+  }
+  return "";
+}
 
 void carry_out(App& app) {
   const Dialog dialog = app.dialog;
+  if (dialog == Dialog::kSave || dialog == Dialog::kReplace) {
+    app.save();
+    return;
+  }
   app.dialog = Dialog::kNone;
   if (dialog == Dialog::kConfirmDelete) app.workbench.remove();
   if (dialog == Dialog::kLabel) app.workbench.label(app.answer);
-  if (dialog == Dialog::kSave) app.workbench.save(app.answer);
   if (dialog == Dialog::kExport) app.workbench.export_to(app.answer);
+  if (dialog == Dialog::kOpen) app.wants_open = app.answer;
+  if (dialog == Dialog::kQuit) app.wants_quit = true;
+}
+
+const char* verb(Dialog dialog) {
+  switch (dialog) {
+    case Dialog::kConfirmDelete:
+      return "Delete (Enter)";
+    case Dialog::kReplace:
+      return "Replace";
+    case Dialog::kQuit:
+      return "Leave without saving";
+    default:
+      return "OK (Enter)";
+  }
 }
 
 // Enter in the field carries it out.
@@ -45,7 +84,18 @@ void draw_label_buttons(App& app) {
 void draw_question(App& app) {
   switch (app.dialog) {
     case Dialog::kConfirmDelete:
-      ImGui::Text("Delete %zu polygons? Ctrl-Z brings them back.", app.workbench.selected().size());
+      ImGui::Text("Delete %zu polygons%s? Ctrl-Z brings them back.",
+                  app.workbench.selected().size(),
+                  app.workbench.is_any_locked() ? ", held ones among them" : "");
+      break;
+    case Dialog::kReplace:
+      ImGui::Text("%s exists: replace it?", app.answer.c_str());
+      break;
+    case Dialog::kOpen:
+      draw_text_question(app, "A saved map or a log (file)");
+      break;
+    case Dialog::kQuit:
+      ImGui::TextUnformatted("The map has edits that no file holds. Ctrl-S saves them.");
       break;
     case Dialog::kLabel:
       draw_label_buttons(app);
@@ -66,21 +116,23 @@ void draw_question(App& app) {
 
 void draw_dialogs(App& app, const Layout& layout) {
   if (app.dialog == Dialog::kNone) return;
-  if (!ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
+  const Dialog dialog = app.dialog;
+  if (!ImGui::IsPopupOpen(title(dialog))) ImGui::OpenPopup(title(dialog));
   ImGui::SetNextWindowPos({layout.scene.center().x(), layout.scene.center().y()},
                           ImGuiCond_Appearing, {0.5F, 0.5F});
-  if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  constexpr ImGuiWindowFlags kFlags =
+      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
+  if (!ImGui::BeginPopupModal(title(dialog), nullptr, kFlags)) return;
   draw_question(app);
-  const bool is_delete = app.dialog == Dialog::kConfirmDelete;
-  if (app.dialog != Dialog::kNone) {
-    const bool is_entered = is_delete && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
-    if (ImGui::Button(is_delete ? "Delete (Enter)" : "OK (Enter)") || is_entered) carry_out(app);
+  const auto is_pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
+  if (app.dialog == dialog) {
+    // A question that has no field: Enter says yes, but never to losing something.
+    const bool is_entered = dialog == Dialog::kConfirmDelete && is_pressed(ImGuiKey_Enter);
+    if (ImGui::Button(verb(dialog)) || is_entered) carry_out(app);
     ImGui::SameLine();
-    if (ImGui::Button("Cancel (Esc)") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) {
-      app.dialog = Dialog::kNone;
-    }
+    if (ImGui::Button("Cancel (Esc)") || is_pressed(ImGuiKey_Escape)) app.dialog = Dialog::kNone;
   }
-  if (app.dialog == Dialog::kNone) ImGui::CloseCurrentPopup();
+  if (app.dialog != dialog) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 
@@ -88,9 +140,11 @@ void draw_help(App& app, const Layout& layout) {
   if (!app.is_help_shown) return;
   ImGui::SetNextWindowPos({layout.scene.center().x(), layout.scene.center().y()}, ImGuiCond_Always,
                           {0.5F, 0.5F});
+  ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {layout.size.x(), layout.size.y()});
   ImGui::Begin("Help: mouse and keys", &app.is_help_shown,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove);
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_HorizontalScrollbar);
   constexpr std::array<std::array<const char*, 2>, 8> kMouse = {{
       {"click", "select a polygon"},
       {"Ctrl-click", "select one more, or one less"},

@@ -27,6 +27,8 @@ class DrawTool : public Tool {
   std::optional<double> pick(const ViewCamera&, const PointerEvent&) override { return 0.0; }
   void hover(const ViewCamera& camera, const PointerEvent& event, bool is_nearest) override;
   bool click(const ViewCamera& camera, const PointerEvent& event) override;
+  /// @brief Two quick corners are no wish to fly.
+  bool double_click(const ViewCamera&, const PointerEvent&) override { return true; }
 
  private:
   std::optional<Eigen::Vector3d> point_at(const ViewCamera& camera, const Eigen::Vector2d& pixel);

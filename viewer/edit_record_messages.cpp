@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "mapping/clean_text.hpp"
-#include "mapping/map_event.hpp"
 #include "mapping/map_messages.hpp"
 #include "messaging/convert_geometry.hpp"
+#include "viewer/sound_geometry.hpp"
 
 namespace geomap::viewer {
 namespace {
@@ -50,7 +50,7 @@ std::optional<mapping::Veto> veto_of(const geomap::veto_t& message, std::int64_t
   surface.frame = messaging::from_message(message.frame);
   surface.plane = surface.frame.plane();
   surface.polygon = messaging::from_message(message.polygon);
-  if (mapping::find_fault(surface) != mapping::EventFault::kNone) return std::nullopt;
+  if (!is_sound(surface)) return std::nullopt;
   veto.region = surface.polygon;
   return veto;
 }
@@ -99,13 +99,11 @@ Taken EditRecords::take(const Message& message, Clock::time_point now) {
     coming_ = std::move(fresh);
   }
   if (coming_ && coming_->records.size() == coming_->count) {
-    show(std::move(*coming_));
+    shown_ = std::move(*coming_);
     coming_.reset();
-    return Taken::kChange;
   }
-  if (coming_) return Taken::kNothing;
-  show(std::move(*shown_));
-  return Taken::kChange;
+  if (!coming_) has_news_ = true;
+  return Taken::kNothing;
 }
 
 EditRecords::Collection& EditRecords::collection_for(const Message& message) {
@@ -115,19 +113,15 @@ EditRecords::Collection& EditRecords::collection_for(const Message& message) {
   return *coming_;
 }
 
-void EditRecords::show(Collection collection) {
+bool EditRecords::show() {
+  if (!std::exchange(has_news_, false)) return false;
   history_.clear();
-  for (const auto& [number, record] : collection.records) history_.push_back(record.entry);
-  shown_ = std::move(collection);
-}
-
-std::vector<mapping::Veto> EditRecords::vetoes() const {
-  std::vector<mapping::Veto> vetoes;
-  if (!shown_) return vetoes;
+  vetoes_.clear();
   for (const auto& [number, record] : shown_->records) {
-    vetoes.insert(vetoes.end(), record.vetoes.begin(), record.vetoes.end());
+    history_.push_back(record.entry);
+    vetoes_.insert(vetoes_.end(), record.vetoes.begin(), record.vetoes.end());
   }
-  return vetoes;
+  return true;
 }
 
 bool EditRecords::is_whole(std::int64_t epoch) const {

@@ -61,7 +61,7 @@ void EventDispatcher::press(const ViewCamera& camera, const PointerEvent& event)
 }
 
 void EventDispatcher::drag(const ViewCamera& camera, const PointerEvent& event) {
-  if (!is_pressed_) return;
+  if (!is_pressed_ || event.button != pressed_.button) return;
   travelled_ += event.moved.norm();
   // Until it is no click, nothing moves.
   if (owner_ && travelled_ > kStill) owner_->drag(camera, event);

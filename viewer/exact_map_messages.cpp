@@ -2,7 +2,9 @@
 #include "viewer/exact_map_messages.hpp"
 
 #include <exception>
+#include <utility>
 
+#include "mapping/clean_text.hpp"
 #include "mapping/edit_messages.hpp"
 #include "mapping/map_journal.hpp"
 #include "viewer/edit_record_messages.hpp"
@@ -17,7 +19,9 @@ constexpr std::int64_t kEpoch = 1;  // there is no mapper that could be started 
 void show(const mapping::GeometricMap& map, MapLayer& layer) {
   layer.features.clear();
   for (const auto& [id, feature] : map.features()) {
-    layer.features.emplace_hint(layer.features.end(), id, mapping::quantised(*feature));
+    mapping::ViewFeature view = mapping::quantised(*feature);
+    view.label = mapping::clean_text(view.label);
+    layer.features.emplace_hint(layer.features.end(), id, std::move(view));
   }
   layer.vetoes.clear();
   for (const auto& [key, veto] : map.vetoes()) layer.vetoes.push_back(*veto);
@@ -26,6 +30,7 @@ void show(const mapping::GeometricMap& map, MapLayer& layer) {
   layer.revision = map.revision();
   layer.is_current = true;
   ++layer.stamp;
+  ++layer.veto_stamp;
 }
 
 void show_keyframes(const mapping::GeometricMap& map, TrackLayer& layer) {

@@ -30,15 +30,11 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 // A search is a condition as geomap-edit knows them, or a part of the label, id or number.
+// @throws std::invalid_argument with what is wrong with a condition.
 std::function<bool(const Row&)> make_filter(const std::string& search) {
   if (search.find_first_of("<>=") != std::string::npos) {
-    try {
-      return
-          [filter = mapping::parse_filter(search)](const Row& row) { return filter(*row.feature); };
-    } catch (const std::invalid_argument&) {
-      // Still being typed: until it is a condition it lets everything through.
-      return [](const Row&) { return true; };
-    }
+    return
+        [filter = mapping::parse_filter(search)](const Row& row) { return filter(*row.feature); };
   }
   return [search](const Row& row) {
     return contains(row.feature->label, search) ||
@@ -62,8 +58,7 @@ bool is_before(const Row& a, const Row& b, Column column) {
   }
 }
 
-std::vector<Row> make_rows(const App& app) {
-  const auto is_wanted = make_filter(app.search);
+std::vector<Row> make_rows(const App& app, const std::function<bool(const Row&)>& is_wanted) {
   std::vector<Row> rows;
   for (const auto& [id, feature] : app.workbench.scene().map.features) {
     const Surface* surface = app.workbench.surfaces().find(id);
@@ -117,17 +112,24 @@ void draw_row(App& app, const Row& row) {
 void draw_feature_list(App& app, float height) {
   ImGui::SetNextItemWidth(-1.0F);
   text_field("##search", "search: label, number, area>0.5 ...", app.search);
+  std::function<bool(const Row&)> is_wanted;
+  try {
+    is_wanted = make_filter(app.search);
+  } catch (const std::invalid_argument& error) {
+    ImGui::TextWrapped("%s", error.what());
+    is_wanted = [](const Row&) { return true; };
+  }
   constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_Sortable | ImGuiTableFlags_ScrollY |
                                      ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
   if (!ImGui::BeginTable("features", kColumns, kFlags, {0.0F, height})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("#", ImGuiTableColumnFlags_DefaultSort, 0.7F);
-  ImGui::TableSetupColumn("label", 0, 1.4F);
+  ImGui::TableSetupColumn("label", 0, 1.2F);
   ImGui::TableSetupColumn("m2", ImGuiTableColumnFlags_PreferSortDescending, 1.0F);
-  ImGui::TableSetupColumn("z", 0, 0.9F);
+  ImGui::TableSetupColumn("height", 0, 1.35F);
   ImGui::TableSetupColumn("seen", ImGuiTableColumnFlags_PreferSortDescending, 1.0F);
   ImGui::TableHeadersRow();
-  const std::vector<Row> rows = make_rows(app);
+  const std::vector<Row> rows = make_rows(app, is_wanted);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(rows.size()));
   while (clipper.Step()) {
@@ -136,6 +138,7 @@ void draw_feature_list(App& app, float height) {
     }
   }
   ImGui::EndTable();
+  if (rows.empty() && !app.search.empty()) ImGui::TextDisabled("nothing matches");
 }
 
 }  // namespace geomap::viewer

@@ -69,13 +69,4 @@ Image Framebuffer::read() const {
   return image;
 }
 
-void Framebuffer::copy_to(unsigned framebuffer, int x, int y, int width, int height) const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
-  const bool is_same_size = width == width_ && height == height_;
-  glBlitFramebuffer(0, 0, width_, height_, x, y, x + width, y + height, GL_COLOR_BUFFER_BIT,
-                    is_same_size ? GL_NEAREST : GL_LINEAR);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-}
-
 }  // namespace geomap::viewer

@@ -26,10 +26,8 @@ class Framebuffer {
   void begin(const Rgba& background);
 
   Image read() const;
-  /// @brief Copies it to a rectangle of another framebuffer, 0 being the window. Pixels from the
-  /// bottom left, as OpenGL counts.
-  void copy_to(unsigned framebuffer, int x, int y, int width, int height) const;
-  unsigned id() const { return framebuffer_; }  // OpenGL's names of it and its colours
+  // OpenGL's names of it and its colours.
+  unsigned id() const { return framebuffer_; }
   unsigned texture() const { return color_; }
 
  private:

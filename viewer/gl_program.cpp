@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -29,10 +30,11 @@ std::string program_log(GLuint program) {
 
 // Attached to the program, which then is the only one that keeps it.
 void attach(GLuint program, const std::string& name, GLenum stage, const char* stage_name,
-            const std::string& source) {
+            std::string_view source) {
   const GLuint shader = glCreateShader(stage);
-  const char* text = source.c_str();
-  glShaderSource(shader, 1, &text, nullptr);
+  const char* text = source.data();
+  const auto length = static_cast<GLint>(source.size());
+  glShaderSource(shader, 1, &text, &length);
   glCompileShader(shader);
   GLint is_compiled = GL_FALSE;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &is_compiled);
@@ -67,19 +69,40 @@ GLuint linked(const std::string& name, const GlProgram::Sources& sources) {
   return program;
 }
 
+// Asked for once: the driver compares names at each question.
+std::vector<std::pair<std::string, int>> locations_of(GLuint program) {
+  GLint count = 0;
+  glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+  std::vector<std::pair<std::string, int>> locations;
+  for (GLint i = 0; i < count; ++i) {
+    std::array<char, 64> text{};
+    GLint size = 0;
+    GLenum type = 0;
+    glGetActiveUniform(program, static_cast<GLuint>(i), static_cast<GLsizei>(text.size()), nullptr,
+                       &size, &type, text.data());
+    const std::string name = text.data();
+    // An array is listed as its first element.
+    locations.emplace_back(name.substr(0, name.find('[')),
+                           glGetUniformLocation(program, name.c_str()));
+  }
+  return locations;
+}
+
 }  // namespace
 
 GlProgram::GlProgram(const std::string& name, const Sources& sources)
-    : program_(linked(name, sources)) {}
+    : program_(linked(name, sources)), locations_(locations_of(program_)) {}
 
 GlProgram::~GlProgram() {
   if (program_ != 0) glDeleteProgram(program_);
 }
 
-GlProgram::GlProgram(GlProgram&& other) noexcept : program_(std::exchange(other.program_, 0U)) {}
+GlProgram::GlProgram(GlProgram&& other) noexcept
+    : program_(std::exchange(other.program_, 0U)), locations_(std::move(other.locations_)) {}
 
 GlProgram& GlProgram::operator=(GlProgram&& other) noexcept {
   std::swap(program_, other.program_);
+  std::swap(locations_, other.locations_);
   return *this;
 }
 
@@ -107,9 +130,10 @@ void GlProgram::set(const char* uniform, double value) const {
 }
 
 int GlProgram::location(const char* uniform) const {
-  const GLint at = glGetUniformLocation(program_, uniform);
-  if (at < 0) throw std::logic_error(fmt::format("the shader has no value '{}'", uniform));
-  return at;
+  for (const auto& [name, location] : locations_) {
+    if (name == uniform) return location;
+  }
+  throw std::logic_error(fmt::format("the shader has no value '{}'", uniform));
 }
 
 }  // namespace geomap::viewer

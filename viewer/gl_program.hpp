@@ -4,6 +4,9 @@
 #include <Eigen/Core>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "viewer/palette.hpp"
 
@@ -13,7 +16,7 @@ namespace geomap::viewer {
 class GlProgram {
  public:
   struct Sources {
-    std::string vertex, geometry, fragment;  // geometry: may be empty
+    std::string_view vertex, geometry, fragment;  // geometry: may be empty
   };
 
   /// @brief @throws std::runtime_error with the program's name, the stage and the driver's log when
@@ -37,6 +40,7 @@ class GlProgram {
   int location(const char* uniform) const;
 
   unsigned program_ = 0;
+  std::vector<std::pair<std::string, int>> locations_;  // of its values: few, so a list is fastest
 };
 
 }  // namespace geomap::viewer

@@ -26,9 +26,9 @@ constexpr auto kMostWork = 15ms;  // of one update
 constexpr auto kSilence = 3s;     // after which anything may have happened
 constexpr Clock::duration kEditPeriod = 500ms, kSavePeriod = 2s;  // until it is sent again
 
-// Of these only the newest message matters, and they are large or many.
+// Of these only the newest message matters, and they are large.
 Keep keep_of(const std::string& channel) {
-  for (const char* newest : {channels::kRgbdFrame, channels::kPlanes, channels::kCameraPose}) {
+  for (const char* newest : {channels::kRgbdFrame, channels::kPlanes}) {
     if (channel == newest) return Keep::kNewest;
   }
   return Keep::kEvery;
@@ -54,11 +54,14 @@ class LiveSource : public MapSource {
     const Clock::time_point end = Clock::now() + kMostWork;
     const auto heard = scene.heard;
     bool is_changed = false;
-    while (Clock::now() < end) {
+    has_more_ = true;
+    while (has_more_ && Clock::now() < end) {
       const auto message = bus_.take(now);
+      has_more_ = message.has_value();
       if (!message) break;
       is_changed = messages_.take(message->channel, message->data, now, scene) || is_changed;
     }
+    scene.overflowed = bus_.inbox().overflowed();
     if (heard && scene.heard != heard && now - *heard > kSilence) messages_.ask_for_all(now);
     note_left_out(scene);
     is_changed = messages_.poll(now, scene) || is_changed;
@@ -67,6 +70,7 @@ class LiveSource : public MapSource {
     replies_.poll(now);
     return is_changed;
   }
+  bool has_more() const override { return has_more_; }
 
   void edit(const mapping::EditCommand& command) override {
     geomap::map_edit_t message = mapping::to_message(command);
@@ -130,6 +134,7 @@ class LiveSource : public MapSource {
   mapping::CommandNumbers numbers_;
   SceneMessages messages_;
   AwaitedReplies replies_;
+  bool has_more_ = false;  // in the inbox
 };
 
 }  // namespace

@@ -27,9 +27,16 @@ bool LogSurvey::read_until(Clock::time_point end) {
     is_done_ = !event.has_value();
     if (is_done_) break;
     duration_ = time_.note(event->log_utime);
-    if (channels_.size() < kMostChannels) channels_.insert(event->channel);
+    if (channels_.size() < kMostChannels || has(event->channel)) ++channels_[event->channel];
   }
   return is_done_;
+}
+
+std::string LogSurvey::commonest() const {
+  const auto most =
+      std::max_element(channels_.begin(), channels_.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == channels_.end() ? std::string() : most->first;
 }
 
 double LogSurvey::progress() const {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "messaging/log_reader.hpp"
@@ -37,13 +37,15 @@ class LogSurvey {
 
   double duration() const { return duration_; }  // of what was read so far [s]
   bool has(const std::string& channel) const { return channels_.contains(channel); }
+  /// @brief The channel with the most events; empty before the first one.
+  std::string commonest() const;
 
  private:
   messaging::LogReader reader_;
   LogTime time_;
   bool is_done_ = false;
   double duration_ = 0.0;
-  std::set<std::string> channels_;
+  std::map<std::string, std::int64_t> channels_;  // number of events
 };
 
 }  // namespace geomap::viewer

@@ -21,7 +21,6 @@ class MapFile : public MapSource {
     if (!std::exchange(is_changed_, false)) return false;
     show(map_, scene.map);
     show_keyframes(map_, scene.track);
-    scene.utime = scene.map.utime;
     return true;
   }
 

@@ -45,7 +45,8 @@ class Playback {
   virtual void set_speed(double times) = 0;
   /// @brief To a time; backwards it is read again from the beginning, with progress() in between.
   virtual void seek(double seconds) = 0;
-  /// @brief To the next key frame (or, where there is none, the next frame), and pauses there.
+  /// @brief To the next key frame (or, where there is none, the next planes, frame, or whatever the
+  /// log holds most of), and pauses there.
   virtual void step() = 0;
   /// @brief Share of a seek that is done, 0 to 1; 1: no seek is under way.
   virtual double progress() const = 0;
@@ -62,6 +63,8 @@ class MapSource {
   /// @brief Takes what has come since the last call into the scene; does not wait, and works no
   /// longer than some 20 ms. @return true when a layer has changed.
   virtual bool update(SceneModel& scene, Clock::time_point now) = 0;
+  /// @brief True when the last update left something for the next one, so that nobody should pause.
+  virtual bool has_more() const { return false; }
 
   /// @brief Asks for an edit, whose author and number the caller has given (operator_name(),
   /// CommandNumbers). What becomes of it comes with take_outcomes(); what is lost on the

@@ -13,10 +13,8 @@ namespace {
 
 constexpr double kArrowPixels = 90.0, kRingPixels = 64.0, kReachPixels = 9.0;
 constexpr int kRingPieces = 48;
-constexpr double kEdgeOn = 0.1;  // a ring seen so flat cannot be turned by
-constexpr std::array<Rgba, 3> kAxisColors = {{{0.34F, 0.71F, 0.91F, 1.0F},    // normal
-                                              {0.90F, 0.62F, 0.00F, 1.0F},    // along
-                                              {0.80F, 0.47F, 0.65F, 1.0F}}};  // across
+constexpr double kFarthest = 10'000.0;  // of a motion [m] or [rad]
+constexpr double kEdgeOn = 0.1;         // a ring seen so flat cannot be turned by
 
 }  // namespace
 
@@ -39,6 +37,7 @@ std::string MoveTool::begin() {
   if (workbench_.selected().empty()) return "Move: select a polygon first";
   const Surface* first = workbench_.surfaces().find(*workbench_.selected().begin());
   if (!first) return "Move: that polygon is gone";
+  targets_ = workbench_.selected();
   center_ = first->centroid;
   axes_.col(0) = first->polygon.plane.normal;
   // Level or upright where that is possible, whatever the feature's own frame is.
@@ -54,6 +53,10 @@ std::string MoveTool::begin() {
 }
 
 void MoveTool::set(const MotionNumbers& numbers) {
+  for (const double number : {numbers.shift[0], numbers.shift[1], numbers.shift[2], numbers.turn[0],
+                              numbers.turn[1], numbers.turn[2]}) {
+    if (!(std::abs(number) <= kFarthest)) return;
+  }
   numbers_ = numbers;
   workbench_.preview(motion_of(numbers_, center_, axes_));
 }

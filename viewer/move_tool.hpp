@@ -3,11 +3,15 @@
 
 #include <array>
 #include <optional>
+#include <set>
 
 #include "viewer/tool.hpp"
 #include "viewer/workbench.hpp"
 
 namespace geomap::viewer {
+
+/// @brief Colours of the handles: normal, sideways, across.
+inline constexpr std::array<Rgba, 3> kAxisColors = {kPalette[1], kPalette[0], kPalette[6]};
 
 /// @brief A motion as six numbers about a frame: shifts along its axes, then, in place, turns about
 /// them one after the other.
@@ -35,7 +39,7 @@ class MoveTool : public Tool {
   std::string hint() const override;
   void add_overlay(const ViewCamera& camera, const Theme& theme, Overlay& overlay) const override;
   bool accept() override;
-  bool is_done() const override { return is_done_ || workbench_.selected().empty(); }
+  bool is_done() const override { return is_done_ || workbench_.selected() != targets_; }
 
   std::optional<double> pick(const ViewCamera& camera, const PointerEvent& event) override;
   void hover(const ViewCamera& camera, const PointerEvent& event, bool is_nearest) override;
@@ -57,6 +61,7 @@ class MoveTool : public Tool {
   Eigen::Vector3d center_now() const;
 
   Workbench& workbench_;
+  std::set<mapping::FeatureId> targets_;  // when another selection takes their place it ends
   MotionNumbers numbers_;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();

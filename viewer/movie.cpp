@@ -14,6 +14,7 @@
 #include <ctime>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "viewer/png_file.hpp"
 
@@ -72,16 +73,19 @@ void Movie::start_ffmpeg() {
   }
 }
 
-Movie::~Movie() {
-  if (pipe_ < 0) return;
-  close(pipe_);
+Movie::~Movie() { finish(); }
+
+std::string Movie::finish() {
+  if (pipe_ < 0) return "";
+  close(std::exchange(pipe_, -1));
   int status = 0;
   waitpid(ffmpeg_, &status, 0);
+  return status == 0 ? "" : fmt::format("{}: ffmpeg has not made a film of it", path_.string());
 }
 
 void Movie::add(const Image& image) {
   if (image.width != width_ || image.height != height_) return;
-  if (pipe_ < 0) {
+  if (ffmpeg_ < 0) {
     write_png(path_ / fmt::format("{:05}.png", ++pictures_), image);
     return;
   }

@@ -26,6 +26,8 @@ class Movie {
   /// @brief The next picture. One of another size than the first is left out.
   /// @throws std::runtime_error when it cannot be written.
   void add(const Image& image);
+  /// @brief Ends it. @return what went wrong, in words; empty when it is whole.
+  std::string finish();
   /// @brief What is being written.
   const std::filesystem::path& path() const { return path_; }
 

@@ -66,7 +66,7 @@ void OffscreenViewer::wait_for_scene(double settle, double patience) {
     }
     const Playback* playback = app().workbench.source().playback();
     if (playback && playback->progress() < 1.0) continue;  // no patience for one's own work
-    const bool is_empty = scene.bounds().isEmpty();
+    const bool is_empty = app().workbench.bounds().isEmpty();
     if (!is_empty && seconds(now - changed) >= settle) return;
     if (seconds(now - begin) > patience) {
       if (!is_empty) return;

@@ -54,6 +54,15 @@ class ScenePen {
                          shade_, 2.0F);
     list_->AddText(corner, color32(color), text.c_str());
   }
+  // Beside the mouse.
+  void note(const std::string& text, const Rgba& color) const {
+    const ImVec2 mouse = ImGui::GetMousePos();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 corner(mouse.x + 14.0F * scale_, mouse.y + 10.0F * scale_);
+    list_->AddRectFilled({corner.x - 3.0F, corner.y - 1.0F},
+                         {corner.x + size.x + 3.0F, corner.y + size.y + 1.0F}, shade_, 2.0F);
+    list_->AddText(corner, color32(color), text.c_str());
+  }
   void rectangle(const Eigen::AlignedBox2d& box, const Rgba& color) const {
     list_->AddRectFilled(at(box.min()), at(box.max()), color32(with_alpha(color, 0.15F)));
     list_->AddRect(at(box.min()), at(box.max()), color32(color), 0.0F, 0, 1.5F * scale_);
@@ -90,6 +99,18 @@ void draw_labels(App& app, const Layout& layout, const ScenePen& pen) {
     if (renderer->enabled) renderer->add_labels(context, labels);
   }
   for (const SceneLabel& label : labels) pen.text(label.position, label.text, label.color);
+}
+
+// What it is that the mouse points at.
+void draw_hovered(const App& app, const ScenePen& pen) {
+  const auto& hovered = app.workbench.selection().hovered;
+  const auto& features = app.workbench.scene().map.features;
+  const Surface* surface = hovered ? app.workbench.surfaces().find(*hovered) : nullptr;
+  if (!surface || app.tool || !features.contains(*hovered)) return;
+  const std::string& label = features.at(*hovered).label;
+  pen.note(fmt::format("#{}{}{}, {:.2f} m2", surface->number, label.empty() ? "" : " ", label,
+                       surface->area),
+           app.theme.foreground);
 }
 
 void draw_banners(const App& app, const Layout& layout, const ScenePen& pen,
@@ -135,6 +156,7 @@ void draw_over_scene(App& app, const Layout& layout, Clock::time_point now) {
   for (const Overlay::Dot& dot : overlay.dots) pen.dot(dot);
   for (const Overlay::Text& text : overlay.texts) pen.text(text.position, text.text, text.color);
   if (overlay.rectangle) pen.rectangle(*overlay.rectangle, app.theme.selected);
+  draw_hovered(app, pen);
   draw_banners(app, layout, pen, now);
   ImGui::GetBackgroundDrawList()->PopClipRect();
 }

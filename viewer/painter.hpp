@@ -9,6 +9,7 @@
 
 #include "viewer/gl_buffer.hpp"
 #include "viewer/gl_program.hpp"
+#include "viewer/gl_table.hpp"
 #include "viewer/renderer.hpp"
 
 namespace geomap::viewer {
@@ -35,8 +36,21 @@ struct PointStyle {
   };
   float size = 2.0F;  // [px], before DrawContext::scale
   bool is_round = false;
-  std::optional<Heights> heights;      // colour by height in place of the points' own
-  std::optional<double> hidden_above;  // world z from which on points are left out [m]
+  std::optional<Heights> heights = {};      // colour by height in place of the points' own
+  std::optional<double> hidden_above = {};  // world z from which on points are left out [m]
+  Rgba veil = {};                           // paled towards this colour by its opacity
+  double setback = 0.0;  // they give way to what lies less than this behind them [m]
+};
+
+/// @brief How one of many surfaces looks that share a buffer.
+struct SurfaceStyle {
+  Rgba front, back, outline;
+  float width = 1.5F;  // of the outline [px], before DrawContext::scale
+};
+
+/// @brief Surfaces that are drawn together: all faces, then all outlines.
+struct SurfaceRun {
+  VertexRanges faces, outlines;
 };
 
 /// @brief Draws buffers for all renderers, and counts what is uploaded. Vertices are relative to
@@ -50,17 +64,32 @@ class Painter {
   void upload(GlBuffer& buffer, std::span<const ScenePoint> points);
   std::int64_t uploads() const { return uploads_; }
 
+  /// @brief As upload(), but the first `unchanged` vertices are in the buffer already.
+  void extend(GlBuffer& buffer, std::span<const Vertex> vertices, std::size_t unchanged);
+
+  /// @brief Triangles and lines: all of the buffer, or pieces of it.
   void fill(const DrawContext& context, const GlBuffer& buffer,
+            const Eigen::Isometry3d& T_world_buffer, const FillStyle& style);
+  void fill(const DrawContext& context, const GlBuffer& buffer, const VertexRanges& ranges,
             const Eigen::Isometry3d& T_world_buffer, const FillStyle& style);
   void lines(const DrawContext& context, const GlBuffer& buffer,
              const Eigen::Isometry3d& T_world_buffer, const LineStyle& style);
+  void lines(const DrawContext& context, const GlBuffer& buffer, const VertexRanges& ranges,
+             const Eigen::Isometry3d& T_world_buffer, const LineStyle& style);
+  /// @brief One run after another.
+  /// @param styles by Vertex::surface; none: those of the last call.
+  void surfaces(const DrawContext& context, const GlBuffer& buffer,
+                std::span<const SurfaceRun> runs, const Eigen::Isometry3d& T_world_buffer,
+                std::span<const SurfaceStyle> styles, bool faces_write_depth);
   /// @param count of points from the first on.
   void points(const DrawContext& context, const GlBuffer& buffer, std::size_t count,
               const Eigen::Isometry3d& T_world_buffer, const PointStyle& style);
   std::size_t points_drawn() const { return points_drawn_; }  // since the beginning
 
  private:
-  std::optional<GlProgram> fill_, lines_, points_;  // made when first needed
+  // Made when first needed.
+  std::optional<GlProgram> fill_, lines_, points_, surface_faces_, surface_outlines_;
+  GlTable styles_;
   std::int64_t uploads_ = 0;
   std::size_t points_drawn_ = 0;
 };

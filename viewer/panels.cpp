@@ -12,7 +12,7 @@
 namespace geomap::viewer {
 namespace {
 
-constexpr float kToolbar = 40.0F, kLeft = 250.0F, kRight = 270.0F, kStatus = 30.0F,
+constexpr float kToolbar = 40.0F, kLeft = 250.0F, kRight = 270.0F, kStatus = 48.0F,
                 kTimeLine = 38.0F;   // [px at scale 1]
 constexpr float kLargeImage = 4.0F;  // times the small one
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
@@ -28,7 +28,8 @@ Rgba color_of(Level level, const Theme& theme) {
 }
 
 void draw_button(const Action& action, bool is_at_work) {
-  const bool is_possible = action.is_possible();
+  const std::string obstacle = action.obstacle();
+  const bool is_possible = obstacle.empty();
   if (is_at_work)
     ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   if (!is_possible) ImGui::BeginDisabled();
@@ -36,7 +37,8 @@ void draw_button(const Action& action, bool is_at_work) {
   if (!is_possible) ImGui::EndDisabled();
   if (is_at_work) ImGui::PopStyleColor();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
-    ImGui::SetTooltip("%s  (%s)", action.help, action.key_text);
+    ImGui::SetTooltip("%s  (%s)%s%s", action.help, action.key_text, is_possible ? "" : "\n",
+                      obstacle.c_str());
   }
 }
 
@@ -101,6 +103,7 @@ void apply_style(const Theme& theme, float scale) {
   style.ItemSpacing = {6.0F, 5.0F};
   const float shade = theme.is_dark ? 0.12F : 0.94F;
   style.Colors[ImGuiCol_WindowBg] = {shade, shade, shade + 0.01F, 1.0F};
+  style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0F, 0.0F, 0.0F, 0.35F};
   style.Colors[ImGuiCol_PopupBg] = {shade, shade, shade + 0.01F, 0.98F};
   style.ScaleAllSizes(scale);
   ImGui::GetStyle() = style;
@@ -133,9 +136,11 @@ void draw_toolbar(App& app, const Layout& layout) {
 
 void draw_left_panel(App& app, const Layout& layout) {
   begin_panel("##left", layout.left);
-  const float whole = ImGui::GetContentRegionAvail().y;
+  // The list has what the layers leave, but some lines at least.
+  const float line = ImGui::GetFrameHeightWithSpacing();
+  const float layers = line * static_cast<float>(app.renderers.size() + 4);
   if (ImGui::CollapsingHeader("Polygons", ImGuiTreeNodeFlags_DefaultOpen)) {
-    draw_feature_list(app, 0.4F * whole);
+    draw_feature_list(app, std::max(6.0F * line, ImGui::GetContentRegionAvail().y - layers));
   }
   if (ImGui::CollapsingHeader("Layers", ImGuiTreeNodeFlags_DefaultOpen)) draw_layers(app);
   ImGui::End();
@@ -144,12 +149,13 @@ void draw_left_panel(App& app, const Layout& layout) {
 void draw_right_panel(App& app, const Layout& layout, unsigned color_texture,
                       unsigned depth_texture) {
   begin_panel("##right", layout.right);
-  const float whole = ImGui::GetContentRegionAvail().y;
+  const auto& frame = app.workbench.scene().frame.frame;
+  const float line = ImGui::GetFrameHeightWithSpacing();
+  const float pictures = frame ? 2.0F * line + 0.4F * ImGui::GetContentRegionAvail().x : 0.0F;
   if (ImGui::CollapsingHeader("Selected", ImGuiTreeNodeFlags_DefaultOpen)) draw_selected(app);
   if (ImGui::CollapsingHeader("History", ImGuiTreeNodeFlags_DefaultOpen)) {
-    draw_history(app, 0.28F * whole);
+    draw_history(app, std::max(3.0F * line, ImGui::GetContentRegionAvail().y - pictures));
   }
-  const auto& frame = app.workbench.scene().frame.frame;
   if (frame && ImGui::CollapsingHeader("Camera", ImGuiTreeNodeFlags_DefaultOpen)) {
     const float width = 0.5F * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
     draw_image(color_texture, frame->color_camera, width);
@@ -162,16 +168,24 @@ void draw_right_panel(App& app, const Layout& layout, unsigned color_texture,
 void draw_status(App& app, const Layout& layout, Clock::time_point now) {
   begin_panel("##status", layout.status);
   const auto items = status_items(app.workbench.scene(), app.workbench.source(), now);
+  const float right = layout.status.max().x();
+  bool is_first = true;
   for (const StatusItem& item : items) {
-    ImGui::TextColored(color(color_of(item.level, app.theme)), "%s",
-                       item.level == Level::kGood ? "o" : "!");
+    // What has no room in this line goes to the next one.
+    const float width = ImGui::CalcTextSize(item.text.c_str()).x + 40.0F * layout.scale;
+    if (!is_first && ImGui::GetItemRectMax().x + width < right) {
+      ImGui::SameLine(0.0F, 14.0F * layout.scale);
+    }
+    is_first = false;
+    const Rgba ink = item.is_known ? color_of(item.level, app.theme) : app.theme.ghost;
+    ImGui::TextColored(color(ink), "%s", item.level == Level::kGood ? "o" : "!");
     ImGui::SameLine(0.0F, 4.0F * layout.scale);
     ImGui::TextUnformatted(item.text.c_str());
     if (!item.detail.empty() && ImGui::IsItemHovered()) {
       ImGui::SetTooltip("%s", item.detail.c_str());
     }
-    ImGui::SameLine(0.0F, 14.0F * layout.scale);
   }
+  ImGui::SameLine(0.0F, 14.0F * layout.scale);
   ImGui::TextDisabled("%s", app.workbench.source().title().c_str());
   ImGui::End();
 }

@@ -40,14 +40,13 @@ std::optional<std::string> reason_of(const Message& message) {
 
 }  // namespace
 
-Taken note_registration(const Message& message, Clock::time_point now, RegistrationState& state) {
+Taken note_registration(const Message& message, RegistrationState& state) {
   if (message.status == Message::ACCEPTED) {
-    state = {Level::kGood, "ok", 0, now};
+    state = {Level::kGood, "ok", 0};
     return Taken::kChange;
   }
   const auto reason = reason_of(message);
   if (!reason) return Taken::kRefused;
-  state.heard = now;
   ++state.rejected_in_row;
   const bool is_lost = state.rejected_in_row >= kLostAfter;
   state.level = is_lost ? Level::kFailing : Level::kDegraded;

@@ -9,7 +9,6 @@ namespace geomap::viewer {
 
 /// @brief Says of a key frame, in plain words, whether it was registered and why not. Three
 /// rejected in a row are called lost.
-Taken note_registration(const geomap::keyframe_t& message, Clock::time_point now,
-                        RegistrationState& state);
+Taken note_registration(const geomap::keyframe_t& message, RegistrationState& state);
 
 }  // namespace geomap::viewer

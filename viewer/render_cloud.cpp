@@ -58,9 +58,8 @@ void RenderCloud::draw(const DrawContext& context) {
     stamp_ = layer.stamp;
     stride_ = stride;
   }
-  painter_->points(
-      context, points_, points_.size(), *layer.T_world_camera,
-      {.size = static_cast<float>(size_), .is_round = false, .heights = {}, .hidden_above = {}});
+  painter_->points(context, points_, points_.size(), *layer.T_world_camera,
+                   {.size = static_cast<float>(size_)});
 }
 
 bool RenderCloud::panel() { return slider("Size", size_, 1.0, 10.0, "%.0f px"); }

@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "viewer/plane_deviation.hpp"
 #include "viewer/setting_widgets.hpp"
@@ -25,8 +26,9 @@ void RenderDeviation::draw(const DrawContext& context) {
   if (planes_stamp_ != scene.planes.stamp || map_stamp_ != scene.map.stamp) {
     planes_.clear();
     for (const auto& plane : scene.planes.planes) {
-      planes_.push_back(
-          {SurfaceMesh(plane, *painter_), distance_from_map(plane, scene.map.features)});
+      SurfaceMesh mesh(plane, *painter_);
+      if (mesh.empty()) continue;
+      planes_.push_back({std::move(mesh), distance_from_map(plane, scene.map.features)});
     }
     planes_stamp_ = scene.planes.stamp;
     map_stamp_ = scene.map.stamp;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/render_grid.hpp"
 
+#include <imgui.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "viewer/line_list.hpp"
+#include "viewer/map_level.hpp"
 
 namespace geomap::viewer {
 namespace {
@@ -44,6 +47,11 @@ double spacing_for(double distance) {
 }  // namespace
 
 void RenderGrid::draw(const DrawContext& context) {
+  const MapLayer& map = context.scene.map;
+  if (map_stamp_ != map.stamp) {
+    map_level_ = lowest_level(map.features);
+    map_stamp_ = map.stamp;
+  }
   const Viewpoint& viewpoint = context.camera.viewpoint();
   const double spacing = spacing_for(viewpoint.distance);
   if (spacing != spacing_) {
@@ -56,9 +64,20 @@ void RenderGrid::draw(const DrawContext& context) {
   const Eigen::Vector2d middle = (about.head<2>() / (10.0 * spacing)).array().round();
   Eigen::Isometry3d T_world_grid = Eigen::Isometry3d::Identity();
   T_world_grid.translation().head<2>() = 10.0 * spacing * middle;
+  if (is_at_map_) T_world_grid.translation().z() = map_level_;
   // Depth is not written: what lies on the floor is never in conflict with the grid.
   painter_->lines(context, lines_, T_world_grid,
                   {.tint = context.theme.grid, .width = 1.0F, .dash = 0.0, .writes_depth = false});
+}
+
+bool RenderGrid::panel() { return ImGui::Checkbox("At the lowest level of the map", &is_at_map_); }
+
+void RenderGrid::load(const Preferences& preferences) {
+  is_at_map_ = preferences.get(name() + ".at_map", is_at_map_);
+}
+
+void RenderGrid::store(Preferences& preferences) const {
+  preferences.set(name() + ".at_map", is_at_map_);
 }
 
 }  // namespace geomap::viewer

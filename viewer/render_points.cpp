@@ -4,12 +4,17 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "viewer/point_share.hpp"
 #include "viewer/setting_widgets.hpp"
 
 namespace geomap::viewer {
 namespace {
+
+// Points scatter about the surface that they lie on: it is drawn over those that are in front of it
+// by less than this [m]. Polygons are what a map is for; points are their background.
+constexpr double kSetback = 0.06;
 
 // Relative to the middle of the block: small numbers, wherever the block is in the world.
 std::vector<ScenePoint> relative_to(const Eigen::Vector3d& origin,
@@ -27,8 +32,9 @@ double weight_of(const Eigen::AlignedBox3d& box, const ViewCamera& camera) {
   const bool is_orthographic =
       camera.viewpoint().projection == Projection::kOrthographic && !camera.is_first_person();
   if (is_orthographic) return 1.0;
-  constexpr double kNearest = 1.0;  // [m]
-  const double distance = std::max(kNearest, box.exteriorDistance(camera.eye()));
+  constexpr double kNearest = 1.0, kFarthest = 1e6;  // [m]
+  const double distance = std::clamp(box.exteriorDistance(camera.eye()), kNearest, kFarthest);
+  if (!std::isfinite(distance)) return 1.0 / (kFarthest * kFarthest);
   return 1.0 / (distance * distance);
 }
 
@@ -69,8 +75,10 @@ void RenderPoints::draw(const DrawContext& context) {
     seen.push_back(&block);
     claims.push_back({block.points.size(), weight_of(block.box, context.camera)});
   }
-  PointStyle style{
-      .size = static_cast<float>(size_), .is_round = is_round_, .heights = {}, .hidden_above = {}};
+  PointStyle style{.size = static_cast<float>(size_),
+                   .is_round = is_round_,
+                   .veil = with_alpha(context.theme.background, static_cast<float>(paleness_)),
+                   .setback = kSetback};
   if (is_by_height_) style.heights = PointStyle::Heights{.low = low_, .high = high_};
   if (hides_above_) style.hidden_above = hide_height_;
   // A fifth of the budget is the live cloud's.
@@ -84,6 +92,7 @@ void RenderPoints::draw(const DrawContext& context) {
 
 bool RenderPoints::panel() {
   bool is_changed = slider("Size", size_, 1.0, 10.0, "%.0f px");
+  is_changed |= slider("Paleness", paleness_, 0.0, 0.9, "%.2f");
   is_changed |= ImGui::Checkbox("Round", &is_round_);
   is_changed |= ImGui::Checkbox("Colour by height", &is_by_height_);
   is_changed |= ImGui::Checkbox("Hide what is above", &hides_above_);
@@ -94,6 +103,7 @@ bool RenderPoints::panel() {
 
 void RenderPoints::load(const Preferences& preferences) {
   size_ = std::clamp(preferences.get(name() + ".size", size_), 1.0, 10.0);
+  paleness_ = std::clamp(preferences.get(name() + ".paleness", paleness_), 0.0, 0.9);
   is_round_ = preferences.get(name() + ".round", is_round_);
   is_by_height_ = preferences.get(name() + ".by_height", is_by_height_);
   hides_above_ = preferences.get(name() + ".hides_above", hides_above_);
@@ -102,6 +112,7 @@ void RenderPoints::load(const Preferences& preferences) {
 
 void RenderPoints::store(Preferences& preferences) const {
   preferences.set(name() + ".size", size_);
+  preferences.set(name() + ".paleness", paleness_);
   preferences.set(name() + ".round", is_round_);
   preferences.set(name() + ".by_height", is_by_height_);
   preferences.set(name() + ".hides_above", hides_above_);

@@ -39,6 +39,7 @@ class RenderPoints : public Renderer {
   std::size_t drawn_ = 0, held_ = 0;  // points, at the last drawing
   double low_ = 0.0, high_ = 1.0;     // heights in the map [m]
   double size_ = 2.0;                 // [px]
+  double paleness_ = 0.35;            // share of the background in their colours
   bool is_round_ = false;
   bool is_by_height_ = false;
   bool hides_above_ = false;  // a ceiling, which would hide the room from above

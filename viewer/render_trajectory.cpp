@@ -3,51 +3,54 @@
 
 #include <imgui.h>
 
+#include <utility>
+
 #include "viewer/line_list.hpp"
 
 namespace geomap::viewer {
 namespace {
 
-constexpr Rgba kPathColor = {0.93F, 0.42F, 0.72F, 1.0F};
+constexpr std::size_t kMostDots = 20'000;
 
-Eigen::Vector3d beginning_of(const TrackLayer& track) {
-  if (!track.poses.empty()) return track.poses.front().T_world_camera.translation();
-  if (!track.keyframes.empty()) return track.keyframes.begin()->second.translation();
-  return Eigen::Vector3d::Zero();
+std::vector<Vertex> dots_of(const TrackLayer& track, const Eigen::Vector3d& origin) {
+  const std::size_t every = 1 + track.keyframes.size() / kMostDots;
+  std::vector<Vertex> dots;
+  std::size_t number = 0;
+  for (const auto& [id, T_world_camera] : track.keyframes) {
+    if (number++ % every != 0) continue;
+    dots.push_back({.position = (T_world_camera.translation() - origin).cast<float>(),
+                    .color = bytes_of(kPathColor)});
+  }
+  return dots;
 }
 
 }  // namespace
 
-void RenderTrajectory::upload(const TrackLayer& track) {
-  const Eigen::Vector3d origin = beginning_of(track);
-  T_world_path_ = Eigen::Translation3d(origin);
-  std::vector<Vertex> lines;
-  for (std::size_t i = 1; i < track.poses.size(); ++i) {
-    add_line(track.poses[i - 1].T_world_camera.translation() - origin,
-             track.poses[i].T_world_camera.translation() - origin, kPathColor, lines);
+void RenderTrajectory::update(const TrackLayer& track) {
+  const std::size_t unchanged = path_.follow(track.poses);
+  if (unchanged < path_.lines().size() || path_.lines().size() < path_buffer_.size()) {
+    painter_->extend(path_buffer_, path_.lines(), unchanged);
   }
-  std::vector<Vertex> dots;
-  for (const auto& [id, T_world_camera] : track.keyframes) {
-    dots.push_back({.position = (T_world_camera.translation() - origin).cast<float>(),
-                    .color = bytes_of(kPathColor),
-                    .along = 0.0F});
-  }
-  painter_->upload(path_, lines);
-  painter_->upload(keyframes_, dots);
+  T_world_path_ = Eigen::Translation3d(path_.origin());
+  // Poses come often and key frames seldom; corrections change their places.
+  std::vector<Vertex> dots = dots_of(track, path_.origin());
+  if (dots == dots_) return;
+  dots_ = std::move(dots);
+  painter_->upload(keyframes_, dots_);
 }
 
 void RenderTrajectory::draw(const DrawContext& context) {
   const TrackLayer& track = context.scene.track;
   if (stamp_ != track.stamp) {
-    upload(track);
+    update(track);
     stamp_ = track.stamp;
   }
   // Dots first: the soft rim of a line would cut into what is drawn behind it later.
   if (shows_keyframes_) {
     painter_->points(context, keyframes_, keyframes_.size(), T_world_path_,
-                     {.size = 7.0F, .is_round = true, .heights = {}, .hidden_above = {}});
+                     {.size = 7.0F, .is_round = true});
   }
-  painter_->lines(context, path_, T_world_path_, {.width = 2.0F});
+  painter_->lines(context, path_buffer_, T_world_path_, {.width = 2.0F});
 }
 
 bool RenderTrajectory::panel() { return ImGui::Checkbox("Key frames", &shows_keyframes_); }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "viewer/painter.hpp"
+#include "viewer/path_lines.hpp"
 #include "viewer/renderer.hpp"
 
 namespace geomap::viewer {
@@ -21,10 +23,12 @@ class RenderTrajectory : public Renderer {
   void store(Preferences& preferences) const override;
 
  private:
-  void upload(const TrackLayer& track);
+  void update(const TrackLayer& track);
 
   std::shared_ptr<Painter> painter_;
-  GlBuffer path_, keyframes_;
+  PathLines path_;
+  std::vector<Vertex> dots_;  // of the key frames, relative to the path's origin
+  GlBuffer path_buffer_, keyframes_;
   Eigen::Isometry3d T_world_path_ = Eigen::Isometry3d::Identity();
   Stamp stamp_ = 0;
   bool shows_keyframes_ = true;

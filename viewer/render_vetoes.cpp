@@ -3,25 +3,40 @@
 
 #include <imgui.h>
 
+#include <map>
+#include <utility>
+
 namespace geomap::viewer {
 
-void RenderVetoes::draw(const DrawContext& context) {
-  const MapLayer& map = context.scene.map;
-  if (stamp_ != map.stamp) {
-    kept_.clear();
-    for (const mapping::Veto& veto : map.vetoes) {
-      geometry::PlanarPolygon surface = veto.feature.surface;
-      surface.polygon = veto.region;
-      kept_.push_back({veto.cause, SurfaceMesh(surface, *painter_)});
-    }
-    stamp_ = map.stamp;
+void RenderVetoes::update(const MapLayer& map) {
+  if (stamp_ == map.veto_stamp) return;
+  stamp_ = map.veto_stamp;
+  kept_.clear();
+  std::vector<SurfaceShape> shapes;
+  for (const mapping::Veto& veto : map.vetoes) {
+    geometry::PlanarPolygon surface = veto.feature.surface;
+    surface.polygon = veto.region;
+    SurfaceShape shape = outline_shape_of(surface);
+    if (shape.empty()) continue;
+    kept_.push_back({veto.cause, shape.middle});
+    shapes.push_back(std::move(shape));
   }
-  for (const Kept& kept : kept_) {
-    if (kept.cause != mapping::VetoCause::kDeleted && !shows_all) continue;
-    painter_->lines(context, kept.mesh.outline(), kept.mesh.T_world_mesh(),
-                    {.tint = with_alpha(context.theme.bad, 0.9F),
-                     .width = 1.5F,
-                     .dash = dash_length(context, kept.mesh.middle())});
+  std::vector<const SurfaceShape*> each;
+  for (const SurfaceShape& shape : shapes) each.push_back(&shape);
+  batch_.set(each, *painter_);
+}
+
+void RenderVetoes::draw(const DrawContext& context) {
+  update(context.scene.map);
+  // Dashes come in few lengths, so that all outlines are drawn in a few calls.
+  std::map<double, VertexRanges> outlines;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    if (kept_[i].cause != mapping::VetoCause::kDeleted && !shows_all) continue;
+    outlines[dash_length(context, kept_[i].middle)].add(batch_[i].outline);
+  }
+  for (const auto& [dash, ranges] : outlines) {
+    painter_->lines(context, batch_.buffer(), ranges, batch_.T_world_batch(),
+                    {.tint = with_alpha(context.theme.bad, 0.9F), .width = 1.5F, .dash = dash});
   }
 }
 

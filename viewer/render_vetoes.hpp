@@ -2,11 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "viewer/painter.hpp"
 #include "viewer/renderer.hpp"
-#include "viewer/surface_mesh.hpp"
+#include "viewer/surface_batch.hpp"
 
 namespace geomap::viewer {
 
@@ -27,12 +28,15 @@ class RenderVetoes : public Renderer {
  private:
   struct Kept {
     mapping::VetoCause cause;
-    SurfaceMesh mesh;
+    Eigen::Vector3d middle;  // world frame
   };
+
+  void update(const MapLayer& map);
 
   std::shared_ptr<Painter> painter_;
   std::vector<Kept> kept_;
-  Stamp stamp_ = 0;
+  SurfaceBatch batch_;  // of kept_, in its order
+  std::optional<Stamp> stamp_;
 };
 
 }  // namespace geomap::viewer

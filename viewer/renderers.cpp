@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/renderers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <exception>
 
 #include "viewer/render_axes.hpp"
 #include "viewer/render_cloud.hpp"
@@ -37,14 +40,23 @@ std::vector<std::unique_ptr<Renderer>> make_renderers() {
   return make_renderers(std::make_shared<Painter>());
 }
 
-void draw_all(const std::vector<std::unique_ptr<Renderer>>& renderers, const DrawContext& context) {
+std::vector<std::string> draw_all(const std::vector<std::unique_ptr<Renderer>>& renderers,
+                                  const DrawContext& context) {
   std::vector<Renderer*> enabled;
   for (const auto& renderer : renderers) {
     if (renderer->enabled) enabled.push_back(renderer.get());
   }
   std::stable_sort(enabled.begin(), enabled.end(),
                    [](const Renderer* a, const Renderer* b) { return a->order() < b->order(); });
-  for (Renderer* renderer : enabled) renderer->draw(context);
+  std::vector<std::string> failures;
+  for (Renderer* renderer : enabled) {
+    try {
+      renderer->draw(context);
+    } catch (const std::exception& error) {
+      failures.push_back(fmt::format("{}: {}", renderer->name(), error.what()));
+    }
+  }
+  return failures;
 }
 
 }  // namespace geomap::viewer

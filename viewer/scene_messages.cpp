@@ -4,18 +4,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "bot_core/rigid_transform_t.hpp"
 #include "geomap/keyframe_update_t.hpp"
 #include "geomap/map_delta_t.hpp"
 #include "geomap/map_t.hpp"
 #include "mapping/clean_text.hpp"
-#include "mapping/map_event.hpp"
 #include "messaging/channels.hpp"
 #include "messaging/convert_geometry.hpp"
 #include "messaging/safe_decode.hpp"
 #include "viewer/channel_counts.hpp"
 #include "viewer/health_messages.hpp"
 #include "viewer/registration_messages.hpp"
+#include "viewer/sound_geometry.hpp"
 
 namespace geomap::viewer {
 namespace {
@@ -24,6 +23,7 @@ namespace channels = messaging::channels;
 using namespace std::chrono_literals;
 
 constexpr auto kRequestPeriod = 1s;  // between requests
+constexpr auto kForgetting = 10min;  // silence of a process, while others are heard
 constexpr std::size_t kMostReplies = 1000, kMostProcesses = 100;
 
 }  // namespace
@@ -39,11 +39,7 @@ void SceneMessages::on(const char* channel, Handler handler) {
   handlers_[channel] = [handler](Bytes data, const Arrival& arrival) {
     const auto decoded = messaging::safe_decode<Message>(data.data(), data.size());
     if (!decoded.message) return Taken::kRefused;
-    const Taken taken = handler(*decoded.message, arrival);
-    if (taken != Taken::kRefused) {
-      arrival.scene.utime = std::max(arrival.scene.utime, decoded.message->utime);
-    }
-    return taken;
+    return handler(*decoded.message, arrival);
   };
 }
 
@@ -56,7 +52,7 @@ void SceneMessages::subscribe_to_mapping() {
   });
   on<geomap::map_edit_record_t>(channels::kMapEditRecord,
                                 [this](const auto& message, const Arrival& arrival) {
-                                  return take_record(message, arrival);
+                                  return records_.take(message, arrival.now);
                                 });
   on<geomap::map_edit_reply_t>(
       channels::kMapEditReply,
@@ -78,10 +74,9 @@ void SceneMessages::subscribe_to_registration() {
                                 [this](const auto& message, const Arrival& arrival) {
                                   return track_.take_update(message, arrival.scene.track);
                                 });
-  on<bot_core::rigid_transform_t>(channels::kCameraPose,
-                                  [this](const auto& message, const Arrival& arrival) {
-                                    return track_.take_pose(message, arrival.scene.track);
-                                  });
+  on<bot_core::rigid_transform_t>(
+      channels::kCameraPose,
+      [this](const auto& message, const Arrival& arrival) { return take_pose(message, arrival); });
   on<bot_core::rigid_transform_t>(channels::kCameraToBody,
                                   [this](const auto& message, const Arrival& arrival) {
                                     return track_.take_camera_to_body(message, arrival.scene.track);
@@ -126,30 +121,30 @@ Taken SceneMessages::take_map(const Message& message, const Arrival& arrival) {
   return map_.refused() > refused ? Taken::kRefused : Taken::kNothing;
 }
 
-bool SceneMessages::show_map(SceneModel& scene) const {
+bool SceneMessages::show_map(SceneModel& scene) {
   const mapping::MapView& view = map_.view();
   if (view.epoch == 0) return false;  // nothing has come yet
   MapLayer& layer = scene.map;
   const bool is_current = map_.is_current();
-  if (layer.epoch == view.epoch && layer.revision == view.revision && layer.utime == view.utime &&
-      layer.is_current == is_current && layer.features == view.features) {
-    return false;
-  }
+  const bool is_changed = std::exchange(shown_changes_, map_.changes()) != map_.changes();
+  if (!is_changed && layer.is_current == is_current) return false;
+  layer.is_current = is_current;
+  ++layer.stamp;
+  if (!is_changed) return true;
   layer.features = view.features;
+  for (auto& [id, feature] : layer.features) feature.label = mapping::clean_text(feature.label);
   layer.utime = view.utime;
   layer.epoch = view.epoch;
   layer.revision = view.revision;
-  layer.is_current = is_current;
-  ++layer.stamp;
   return true;
 }
 
-Taken SceneMessages::take_record(const geomap::map_edit_record_t& message, const Arrival& arrival) {
-  const Taken taken = records_.take(message, arrival.now);
-  if (taken != Taken::kChange) return taken;
-  arrival.scene.map.vetoes = records_.vetoes();
-  ++arrival.scene.map.stamp;
-  return taken;
+bool SceneMessages::show_records(SceneModel& scene) {
+  if (!records_.show()) return false;
+  scene.map.vetoes = records_.vetoes();
+  ++scene.map.veto_stamp;
+  ++scene.map.stamp;
+  return true;
 }
 
 Taken SceneMessages::take_reply(const geomap::map_edit_reply_t& message) {
@@ -169,12 +164,14 @@ Taken SceneMessages::take_points(const geomap::point_map_update_t& message,
                                  const Arrival& arrival) {
   const Taken taken = points_.take(message, arrival.now, arrival.scene.points);
   arrival.scene.channels[channels::kPointMap].missing = points_.missing();
+  const bool is_empty = message.complete != 0 && message.n_blocks == 0;
+  if (taken == Taken::kChange && is_empty) track_.note_empty_map(arrival.scene.track);
   return taken;
 }
 
 Taken SceneMessages::take_keyframe(const geomap::keyframe_t& message, const Arrival& arrival) {
   SceneModel& scene = arrival.scene;
-  if (note_registration(message, arrival.now, scene.registration) == Taken::kRefused) {
+  if (note_registration(message, scene.registration) == Taken::kRefused) {
     return Taken::kRefused;
   }
   const Taken taken = track_.take_keyframe(message, scene.track);
@@ -182,13 +179,19 @@ Taken SceneMessages::take_keyframe(const geomap::keyframe_t& message, const Arri
   note_missing(channels::kKeyframe,
                gaps_[channels::kKeyframe].gaps.note(message.session, message.sequence), scene);
   if (taken == Taken::kChange) {
-    frame_.offer(channels::kKeyframe, message.frame, scene.track.keyframes.at(message.utime));
+    frames_.offer(channels::kKeyframe, message.frame, scene.track.keyframes.at(message.utime));
   }
   return Taken::kChange;
 }
 
+Taken SceneMessages::take_pose(const bot_core::rigid_transform_t& message, const Arrival& arrival) {
+  const Taken taken = track_.take_pose(message, arrival.scene.track);
+  if (taken == Taken::kChange) frames_.note_pose(message.utime, messaging::from_message(message));
+  return taken;
+}
+
 Taken SceneMessages::take_frame(const geomap::rgbd_frame_t& message, const Arrival& arrival) {
-  frame_.offer(channels::kRgbdFrame, message, std::nullopt);
+  frames_.offer(channels::kRgbdFrame, message, std::nullopt);
   note_missing(channels::kRgbdFrame, gaps_[channels::kRgbdFrame].gaps.note(message.sequence),
                arrival.scene);
   return Taken::kNothing;
@@ -196,16 +199,15 @@ Taken SceneMessages::take_frame(const geomap::rgbd_frame_t& message, const Arriv
 
 Taken SceneMessages::take_planes(const geomap::plane_set_t& message, const Arrival& arrival) {
   const auto planes = messaging::from_message(message);
-  if (!planes || mapping::find_fault(planes->T_world_camera) != mapping::EventFault::kNone) {
-    return Taken::kRefused;
+  if (!planes || !is_sound(planes->T_world_camera)) return Taken::kRefused;
+  std::vector<geometry::PlanarPolygon> surfaces;
+  for (const geometry::PlaneObservation& plane : planes->planes) {
+    if (!is_sound(plane.surface)) return Taken::kRefused;
+    surfaces.push_back(plane.surface.transformed(planes->T_world_camera));
   }
   PlanesLayer& layer = arrival.scene.planes;
   layer.keyframe = planes->keyframe;
-  layer.T_world_camera = planes->T_world_camera;
-  layer.planes.clear();
-  for (const geometry::PlaneObservation& plane : planes->planes) {
-    layer.planes.push_back(plane.surface.transformed(planes->T_world_camera));
-  }
+  layer.planes = std::move(surfaces);
   ++layer.stamp;
   note_missing(channels::kPlanes,
                gaps_[channels::kPlanes].gaps.note(message.session, message.sequence),
@@ -250,12 +252,26 @@ void SceneMessages::ask(const char* channel, Clock::time_point now) {
 
 bool SceneMessages::poll(Clock::time_point now, SceneModel& scene) {
   map_.poll(now);
-  const bool is_shown = show_map(scene);
+  const bool is_map_new = show_map(scene);
+  const bool is_history_new = show_records(scene);
   if (points_.should_ask(now)) ask_(channels::kPointMap);
   const std::int64_t epoch = map_.view().epoch;
   if (epoch != 0 && !records_.is_whole(epoch)) ask(channels::kMapEditRecord, now);
-  for (auto& [name, channel] : scene.channels) update_rate(now, channel);
-  return points_.drop_outdated(now, scene.points) || is_shown;
+  for (auto& [name, channel] : scene.channels) {
+    update_rate(now, channel);
+    update_troubles(now, channel);
+  }
+  forget_silent(scene);
+  return points_.drop_outdated(now, scene.points) || is_map_new || is_history_new;
+}
+
+// While nothing at all is heard, as of a log that pauses, nobody is more silent than the others.
+void SceneMessages::forget_silent(SceneModel& scene) {
+  std::erase_if(scene.processes, [&](const auto& process) {
+    const bool is_silent = scene.heard && *scene.heard - process.second.heard > kForgetting;
+    if (is_silent) started_.erase(process.first);
+    return is_silent;
+  });
 }
 
 void SceneMessages::note_missing(const std::string& channel, std::int64_t messages,

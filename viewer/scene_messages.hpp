@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bot_core/rigid_transform_t.hpp"
 #include "geomap/health_t.hpp"
 #include "geomap/keyframe_t.hpp"
 #include "geomap/map_edit_record_t.hpp"
@@ -49,11 +50,11 @@ class SceneMessages {
   /// @brief Takes a message over. Images are not decoded yet.
   /// @return true when a layer has changed.
   bool take(const std::string& channel, Bytes data, Clock::time_point now, SceneModel& scene);
-  /// @brief To be called several times a second: asks for what is missing, and keeps rates up to
-  /// date. @return true when a layer has changed.
+  /// @brief To be called several times a second: asks for what is missing, shows the edits that
+  /// have come, and keeps rates up to date. @return true when a layer has changed.
   bool poll(Clock::time_point now, SceneModel& scene);
-  /// @brief Decodes the newest image. @return true when there is one to see.
-  bool show_newest_frame(SceneModel& scene) { return frame_.show(scene); }
+  /// @brief Decodes what is to be seen of the newest images. @return true when there is something.
+  bool show_newest_frame(SceneModel& scene) { return frames_.show(scene); }
 
   /// @brief After a silence, in which anything may have happened.
   void ask_for_all(Clock::time_point now);
@@ -88,27 +89,30 @@ class SceneMessages {
 
   template <class Message>
   Taken take_map(const Message& message, const Arrival& arrival);
-  bool show_map(SceneModel& scene) const;
-  Taken take_record(const geomap::map_edit_record_t& message, const Arrival& arrival);
+  bool show_map(SceneModel& scene);
+  bool show_records(SceneModel& scene);
   Taken take_reply(const geomap::map_edit_reply_t& message);
   Taken take_points(const geomap::point_map_update_t& message, const Arrival& arrival);
   Taken take_keyframe(const geomap::keyframe_t& message, const Arrival& arrival);
+  Taken take_pose(const bot_core::rigid_transform_t& message, const Arrival& arrival);
   Taken take_frame(const geomap::rgbd_frame_t& message, const Arrival& arrival);
   Taken take_planes(const geomap::plane_set_t& message, const Arrival& arrival);
   Taken take_health(const geomap::health_t& message, const Arrival& arrival);
   void note_start(const std::string& process, Clock::time_point now);
   void ask(const char* channel, Clock::time_point now);
+  void forget_silent(SceneModel& scene);
   void note_missing(const std::string& channel, std::int64_t messages, SceneModel& scene);
 
   std::function<void(const char* channel)> ask_;
   std::map<std::string, std::function<Taken(Bytes, const Arrival&)>> handlers_;  // by channel
   std::map<std::string, Clock::time_point> asked_;                               // by channel
   mapping::MapClient map_;
+  std::uint64_t shown_changes_ = 0;  // of map_
   EditRecords records_;
   std::vector<EditReply> replies_;
   PointUpdates points_;
   TrackUpdates track_;
-  NewestFrame frame_;
+  RecentFrames frames_;
   std::map<std::string, std::int64_t> started_;  // by process
   std::map<std::string, Gaps> gaps_;             // by channel
 };

@@ -25,10 +25,15 @@ std::optional<Eigen::Isometry3d> SceneModel::T_world_body() const {
 }
 
 Eigen::AlignedBox3d SceneModel::bounds() const {
-  Eigen::AlignedBox3d box;
+  Eigen::AlignedBox3d box = track_and_points();
   for (const auto& [id, feature] : map.features) {
     box.extend(mapping::surface_of(feature).bounding_box());
   }
+  return box;
+}
+
+Eigen::AlignedBox3d SceneModel::track_and_points() const {
+  Eigen::AlignedBox3d box;
   for (const auto& [key, block] : points.blocks) {
     if (block.points && !block.points->empty()) box.extend(block.box);
   }

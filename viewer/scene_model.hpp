@@ -36,6 +36,7 @@ struct MapLayer {
   bool is_current = false;  // nothing is known to be missing
   std::int64_t bytes = 0;   // that came over the link for it
   Stamp stamp = 0;
+  Stamp veto_stamp = 0;  // of the vetoes alone
 };
 
 struct ScenePoint {
@@ -59,17 +60,18 @@ struct PointLayer {
   Stamp stamp = 0;
 };
 
-/// @brief The newest camera frame, for the live cloud and the images.
+/// @brief Camera frames: the newest one for the images, and for the live cloud the newest one of
+/// which it is known where it was taken, often a few frames older.
 struct FrameLayer {
-  std::shared_ptr<const geometry::RgbdFrame> frame;  // null before the first one
-  std::optional<Eigen::Isometry3d> T_world_camera;   // where it was taken, once that is known
+  std::shared_ptr<const geometry::RgbdFrame> newest;  // null before the first one
+  std::shared_ptr<const geometry::RgbdFrame> frame;   // of the cloud; null before the first one
+  std::optional<Eigen::Isometry3d> T_world_camera;    // of `frame`
   Stamp stamp = 0;
 };
 
 /// @brief The planes that were seen in the newest key frame.
 struct PlanesLayer {
-  std::int64_t keyframe = 0;  // its id [us]
-  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  std::int64_t keyframe = 0;                    // its id [us]
   std::vector<geometry::PlanarPolygon> planes;  // world frame
   Stamp stamp = 0;
 };
@@ -95,7 +97,6 @@ struct RegistrationState {
   Level level = Level::kGood;
   std::string text;         // "ok", "rejected: ...", "lost: ..."; empty before the first
   int rejected_in_row = 0;  // key frames
-  Clock::time_point heard;
 };
 
 /// @brief HEALTH of one process.
@@ -115,14 +116,21 @@ struct ProcessState {
 /// @brief What comes in on one channel.
 struct ChannelState {
   std::int64_t messages = 0, bytes = 0, refused = 0;
-  std::int64_t missing = 0;  // by sequence numbers
+  std::int64_t missing = 0;                             // by sequence numbers
+  std::int64_t recent_missing = 0, recent_refused = 0;  // of these, in the last minute
+  struct Trouble {
+    Clock::time_point at;
+    std::int64_t missing = 0, refused = 0;  // in all, until then
+  };
+  std::deque<Trouble> troubles;  // of the last minute, where the numbers have changed
   Clock::time_point last;
   double rate = 0.0;                     // over the last seconds [1/s]
   std::deque<Clock::time_point> recent;  // arrivals, for the rate
 };
 
 /// @brief All that the operator can look at. Each layer is replaced by its own messages only: none
-/// is ever cleared because another one came. World frame (z up), metres.
+/// is ever cleared because another one came, except that an empty point map ends the camera's path.
+/// World frame (z up), metres.
 struct SceneModel {
   MapLayer map;
   PointLayer points;
@@ -133,13 +141,15 @@ struct SceneModel {
   std::map<std::string, ProcessState> processes;
   std::map<std::string, ChannelState> channels;
   std::optional<Clock::time_point> heard;  // anything at all
-  std::int64_t utime = 0;                  // newest of any message [us]
+  std::int64_t overflowed = 0;             // messages that this process had no room for
 
   /// @brief Body pose T_world_body, where the camera's pose and its place on the body are known;
   /// without the latter the point below the camera, heading as the camera does.
   std::optional<Eigen::Isometry3d> T_world_body() const;
 
-  /// @brief Box around map, points and camera path; empty when there is nothing.
+  /// @brief Box around points and camera path; empty when there is nothing.
+  Eigen::AlignedBox3d track_and_points() const;
+  /// @brief The same with the map. Works it out of all polygons each time.
   Eigen::AlignedBox3d bounds() const;
 };
 

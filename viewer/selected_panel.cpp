@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <ctime>
 #include <string>
+#include <vector>
 
 #include "geometry/angles.hpp"
 #include "viewer/panels.hpp"
@@ -21,7 +23,8 @@ void draw_feature(const App& app, const mapping::ViewFeature& feature, const Sur
   const geometry::Plane& plane = surface.polygon.plane;
   const Eigen::Vector3d& n = plane.normal;
   const Eigen::Vector3d size = surface.box.sizes();
-  line("number", fmt::format("{}{}", surface.number, feature.locked ? ", held" : ""));
+  line("number", fmt::format("{}{}", surface.number,
+                             feature.locked ? ", held: mapping leaves it alone" : ""));
   line("id", mapping::to_string(feature.id));
   line("label", feature.label.empty() ? "-" : feature.label);
   line("normal n", fmt::format("{:.3f} {:.3f} {:.3f}", n.x(), n.y(), n.z()));
@@ -38,27 +41,40 @@ void draw_feature(const App& app, const mapping::ViewFeature& feature, const Sur
   for (const std::string& done : app.workbench.done_to(feature.id)) line("history", done);
 }
 
-// Numbers are typed, or turned up and down by the small buttons.
-bool motion_field(const char* name, double& value, double step, const char* format) {
+// Numbers are typed, or turned up and down by the small buttons; the name has the handle's colour.
+// @param is_finished becomes true when typing in it has ended.
+bool motion_field(const char* name, std::size_t axis, double& value, double step,
+                  const char* format, bool& is_finished) {
+  ImGui::PushID(name);
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8.0F);
-  return ImGui::InputDouble(name, &value, step, 10.0 * step, format);
+  const bool is_changed = ImGui::InputDouble("##number", &value, step, 10.0 * step, format);
+  is_finished = is_finished || ImGui::IsItemDeactivatedAfterEdit();
+  ImGui::SameLine();
+  const Rgba& color = kAxisColors[axis];
+  ImGui::TextColored({color[0], color[1], color[2], 1.0F}, "%s", name);
+  ImGui::PopID();
+  return is_changed;
 }
 
 void draw_motion(App& app) {
   MotionNumbers numbers = app.move.numbers();
   std::array<double, 3> turn_deg{};
   for (std::size_t i = 0; i < 3; ++i) turn_deg[i] = geometry::degrees(numbers.turn[i]);
-  bool is_changed = motion_field("along normal", numbers.shift[0], 0.01, "%.3f m");
-  is_changed |= motion_field("sideways", numbers.shift[1], 0.01, "%.3f m");
-  is_changed |= motion_field("across", numbers.shift[2], 0.01, "%.3f m");
-  is_changed |= motion_field("about normal", turn_deg[0], 1.0, "%.2f deg");
-  is_changed |= motion_field("about sideways", turn_deg[1], 1.0, "%.2f deg");
-  is_changed |= motion_field("about across", turn_deg[2], 1.0, "%.2f deg");
+  bool is_finished = false;
+  bool is_changed = motion_field("along normal", 0, numbers.shift[0], 0.01, "%.3f m", is_finished);
+  is_changed |= motion_field("sideways", 1, numbers.shift[1], 0.01, "%.3f m", is_finished);
+  is_changed |= motion_field("across", 2, numbers.shift[2], 0.01, "%.3f m", is_finished);
+  is_changed |= motion_field("about normal", 0, turn_deg[0], 1.0, "%.2f deg", is_finished);
+  is_changed |= motion_field("about sideways", 1, turn_deg[1], 1.0, "%.2f deg", is_finished);
+  is_changed |= motion_field("about across", 2, turn_deg[2], 1.0, "%.2f deg", is_finished);
   if (is_changed) {
     for (std::size_t i = 0; i < 3; ++i) numbers.turn[i] = geometry::radians(turn_deg[i]);
     app.move.set(numbers);
   }
-  if (ImGui::Button("Move it (Enter)")) app.move.accept();
+  // Enter in a field is meant for the whole motion.
+  const bool is_entered =
+      is_finished && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  if (ImGui::Button("Move it (Enter)") || is_entered) app.move.accept();
   ImGui::SameLine();
   if (ImGui::Button("Leave it (Esc)")) app.cancel();
 }
@@ -87,39 +103,75 @@ void draw_selected(App& app) {
   ImGui::Text("%zu polygons, %.2f m2", selected.size(), area);
 }
 
-void draw_history(App& app, float height) {
-  const auto& history = app.workbench.source().history();
-  ImGui::BeginChild("history", {0.0F, height});
-  if (history.empty()) ImGui::TextDisabled("no edits yet");
-  for (auto entry = history.rbegin(); entry != history.rend(); ++entry) {
-    ImGui::PushID(static_cast<int>(entry->number));
-    const bool is_done = entry->state == HistoryEntry::State::kDone;
-    const bool is_about_edits = mapping::is_about_edits(entry->kind);
-    const std::string text = fmt::format("{}  {}", entry->number, entry->text);
-    if (is_done) {
-      ImGui::TextWrapped("%s", text.c_str());
-    } else {
-      ImGui::TextDisabled("%s", text.c_str());
-    }
+namespace {
+
+enum class Wish { kNone, kUndo, kRedo, kRestore };
+
+// One line: what it is, and at the right what can be done about it.
+Wish draw_entry(const HistoryEntry& entry) {
+  Wish wish = Wish::kNone;
+  const bool is_done = entry.state == HistoryEntry::State::kDone;
+  const bool is_undone = entry.state == HistoryEntry::State::kUndone;
+  if (is_undone && ImGui::SmallButton("redo")) wish = Wish::kRedo;
+  if (is_done && ImGui::SmallButton("undo")) wish = Wish::kUndo;
+  if (is_undone || is_done) ImGui::SameLine();
+  if (is_done && entry.keeps_out) {
+    if (ImGui::SmallButton("let back")) wish = Wish::kRestore;
     if (ImGui::IsItemHovered()) {
-      const std::time_t seconds = entry->utime / 1'000'000;
-      std::array<char, 32> when{};
-      std::strftime(when.data(), when.size(), "%F %T", std::localtime(&seconds));
-      ImGui::SetTooltip("%s, %s%s%s", entry->author.c_str(), when.data(),
-                        entry->reason.empty() ? "" : "\n", entry->reason.c_str());
+      ImGui::SetTooltip("lets the surface come back where it is seen again");
     }
-    if (is_done && !is_about_edits) {
-      if (ImGui::SmallButton("undo this")) app.workbench.undo(entry->number);
-      if (entry->keeps_out) {
-        ImGui::SameLine();
-        if (ImGui::SmallButton("let it come back")) app.workbench.restore(entry->number);
+    ImGui::SameLine();
+  }
+  const std::string text = fmt::format("{} {}", entry.number, entry.text);
+  if (is_done) {
+    ImGui::TextUnformatted(text.c_str());
+  } else {
+    ImGui::TextDisabled("%s", text.c_str());
+  }
+  if (ImGui::IsItemHovered()) {
+    const std::time_t seconds = entry.utime / 1'000'000;
+    std::array<char, 32> when{};
+    std::strftime(when.data(), when.size(), "%F %T", std::localtime(&seconds));
+    ImGui::SetTooltip("%s\n%s, %s%s%s", text.c_str(), entry.author.c_str(), when.data(),
+                      entry.reason.empty() ? "" : "\n", entry.reason.c_str());
+  }
+  return wish;
+}
+
+}  // namespace
+
+void draw_history(App& app, float height) {
+  // An undo shows in the edit that it is about.
+  std::vector<const HistoryEntry*> entries;
+  for (const HistoryEntry& entry : app.workbench.source().history()) {
+    const bool is_shown =
+        entry.kind != mapping::EditKind::kUndo && entry.kind != mapping::EditKind::kRedo;
+    if (is_shown) entries.push_back(&entry);
+  }
+  std::reverse(entries.begin(), entries.end());
+  ImGui::BeginChild("history", {0.0F, height});
+  if (entries.empty()) ImGui::TextDisabled("no edits yet");
+  // What is wished for is done behind the loop: it changes the history.
+  Wish wish = Wish::kNone;
+  std::int64_t number = 0;
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(entries.size()), ImGui::GetTextLineHeightWithSpacing());
+  while (clipper.Step()) {
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      const HistoryEntry& entry = *entries[static_cast<std::size_t>(i)];
+      ImGui::PushID(static_cast<int>(entry.number));
+      const Wish wished = draw_entry(entry);
+      if (wished != Wish::kNone) {
+        wish = wished;
+        number = entry.number;
       }
-    } else if (entry->state == HistoryEntry::State::kUndone) {
-      if (ImGui::SmallButton("redo this")) app.workbench.redo(entry->number);
+      ImGui::PopID();
     }
-    ImGui::PopID();
   }
   ImGui::EndChild();
+  if (wish == Wish::kUndo) app.workbench.undo(number);
+  if (wish == Wish::kRedo) app.workbench.redo(number);
+  if (wish == Wish::kRestore) app.workbench.restore(number);
 }
 
 }  // namespace geomap::viewer

@@ -13,15 +13,16 @@ namespace geomap::viewer {
 struct StatusItem {
   Level level = Level::kGood;
   std::string text;
-  std::string detail;  // more of it, for who asks; several lines
+  std::string detail;    // more of it, for who asks; several lines
+  bool is_known = true;  // false: nothing has been heard of it yet, neither good nor bad
 };
 
 /// @brief Link, registration, map, frames and processes in plain words.
 std::vector<StatusItem> status_items(const SceneModel& scene, const MapSource& source,
                                      Clock::time_point now);
 
-/// @brief A warning that what is seen is old, or that nothing has come yet; nothing when all is
-/// fresh. Only of a live source.
+/// @brief A warning that what is seen is old, that the mapper does not answer, or that nothing has
+/// come yet; nothing when all is fresh. Only of a live source.
 std::optional<std::string> stale_warning(const SceneModel& scene, const MapSource& source,
                                          Clock::time_point now);
 

@@ -1,91 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/surface_mesh.hpp"
 
-#include "geometry/triangulate.hpp"
+#include "viewer/surface_shape.hpp"
 
 namespace geomap::viewer {
-namespace {
 
-using geometry::GridPoint;
-using geometry::Ring;
-
-// A point in the frame of the polygon: z is not zero where the plane is turned against the frame.
-class ToMesh {
- public:
-  explicit ToMesh(const geometry::PlanarPolygon& surface)
-      : surface_(surface), T_mesh_world_(surface.frame.T_plane_parent()) {}
-  Eigen::Vector3f operator()(GridPoint vertex) const {
-    return (T_mesh_world_ * surface_.lift(vertex)).cast<float>();
-  }
-
- private:
-  const geometry::PlanarPolygon& surface_;
-  Eigen::Isometry3d T_mesh_world_;
-};
-
-std::vector<Vertex> corners_of(const geometry::Triangulation& triangulation,
-                               const ToMesh& to_mesh) {
-  std::vector<Vertex> corners;
-  corners.reserve(3 * triangulation.triangles.size());
-  for (const auto& triangle : triangulation.triangles) {
-    for (const auto vertex : triangle) {
-      corners.push_back({.position = to_mesh(triangulation.vertices[vertex])});
-    }
-  }
-  return corners;
-}
-
-void add_ring(const Ring& ring, const ToMesh& to_mesh, std::vector<Vertex>& lines) {
-  float along = 0.0F;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Eigen::Vector3f from = to_mesh(ring[i]);
-    const Eigen::Vector3f to = to_mesh(ring[(i + 1) % ring.size()]);
-    lines.push_back({.position = from, .along = along});
-    along += (to - from).norm();
-    lines.push_back({.position = to, .along = along});
-  }
-}
-
-std::vector<Vertex> outline_of(const geometry::Polygon& polygon, const ToMesh& to_mesh) {
-  std::vector<Vertex> lines;
-  lines.reserve(2 * geometry::vertex_count(polygon));
-  for (const geometry::PolygonPart& part : polygon.parts) {
-    add_ring(part.outer, to_mesh, lines);
-    for (const Ring& hole : part.holes) add_ring(hole, to_mesh, lines);
-  }
-  return lines;
-}
-
-// The centroid, or the middle of the largest triangle where the centroid lies in a hole.
-Eigen::Vector2d middle_of(const geometry::Polygon& polygon,
-                          const geometry::Triangulation& triangulation) {
-  const Eigen::Vector2d centroid = geometry::area_moments(polygon).centroid;
-  if (geometry::contains(polygon, centroid)) return centroid;
-  Eigen::Vector2d middle = centroid;
-  double largest = 0.0;
-  for (const auto& triangle : triangulation.triangles) {
-    const Ring ring = {triangulation.vertices[triangle[0]], triangulation.vertices[triangle[1]],
-                       triangulation.vertices[triangle[2]]};
-    const double area = geometry::signed_area(ring);
-    if (area <= largest) continue;
-    largest = area;
-    middle = (to_metres(ring[0]) + to_metres(ring[1]) + to_metres(ring[2])) / 3.0;
-  }
-  return middle;
-}
-
-}  // namespace
-
-SurfaceMesh::SurfaceMesh(const geometry::PlanarPolygon& surface, Painter& painter)
-    : T_world_mesh_(surface.frame.T_parent_plane()),
-      normal_(surface.plane.normal),
-      middle_(surface.frame.origin) {
-  if (surface.polygon.empty()) return;
-  const ToMesh to_mesh(surface);
-  const geometry::Triangulation triangulation = geometry::triangulate(surface.polygon);
-  painter.upload(fill_, corners_of(triangulation, to_mesh));
-  painter.upload(outline_, outline_of(surface.polygon, to_mesh));
-  middle_ = surface.lift(middle_of(surface.polygon, triangulation));
+SurfaceMesh::SurfaceMesh(const geometry::PlanarPolygon& surface, Painter& painter) {
+  const SurfaceShape shape = shape_of(surface);
+  T_world_mesh_ = shape.T_world_shape;
+  normal_ = shape.normal;
+  middle_ = shape.middle;
+  if (shape.empty()) return;
+  painter.upload(fill_, shape.triangles);
+  painter.upload(outline_, shape.outline);
 }
 
 float brightness(const Eigen::Vector3d& normal) {

@@ -15,6 +15,7 @@ class SurfaceMesh {
  public:
   SurfaceMesh(const geometry::PlanarPolygon& surface, Painter& painter);
 
+  bool empty() const { return outline_.size() == 0; }  // nothing of it can be drawn
   const GlBuffer& fill() const { return fill_; }
   const GlBuffer& outline() const { return outline_; }  // of all rings, with the way along them
   const Eigen::Isometry3d& T_world_mesh() const { return T_world_mesh_; }

@@ -50,7 +50,11 @@ bool ViewControl::follow_robot() {
       body->translation() + Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * offset;
   viewpoint.yaw += turn;
   camera_.set(viewpoint);
-  flight_.reset();
+  if (flight_) {  // lands where it would have, as seen from the robot
+    const Eigen::Vector3d moved = body->translation() - before->translation();
+    flight_->from.target += moved;
+    flight_->to.target += moved;
+  }
   return true;
 }
 
@@ -76,6 +80,7 @@ void ViewControl::land() {
 
 void ViewControl::fly_to(const Viewpoint& viewpoint) {
   is_untouched_ = false;
+  set_first_person(false);
   flight_ = Flight{camera_.viewpoint(), viewpoint, Clock::now()};
 }
 
@@ -88,14 +93,13 @@ void ViewControl::fly_towards(const Eigen::Vector3d& point) {
   fly_to(viewpoint);
 }
 
-void ViewControl::show_all() { fly_to(workbench_.scene().bounds()); }
+void ViewControl::show_all() { fly_to(workbench_.bounds()); }
 
 void ViewControl::look_from_above() {
   Viewpoint viewpoint = camera_.viewpoint();
   viewpoint.pitch = std::numbers::pi / 2.0;
   viewpoint.yaw = -std::numbers::pi / 2.0;  // x to the right, y up
   viewpoint.projection = Projection::kOrthographic;
-  set_first_person(false);
   camera_.set(viewpoint);
   show_all();
 }
@@ -105,7 +109,6 @@ void ViewControl::look_obliquely() {
   viewpoint.pitch = kObliquePitch;
   viewpoint.yaw = kObliqueYaw;
   viewpoint.projection = Projection::kPerspective;
-  set_first_person(false);
   camera_.set(viewpoint);
   show_all();
 }
@@ -135,7 +138,6 @@ void ViewControl::set_first_person(bool on) {
 bool ViewControl::go_to_bookmark(int number) {
   const auto found = bookmarks_.find(number);
   if (found == bookmarks_.end()) return false;
-  set_first_person(false);
   fly_to(found->second);
   return true;
 }
@@ -153,13 +155,11 @@ void ViewControl::store(Preferences& preferences) const {
   }
 }
 
-bool ViewControl::press(const ViewCamera&, const PointerEvent&) {
-  flight_.reset();
-  return true;
-}
+bool ViewControl::press(const ViewCamera&, const PointerEvent&) { return true; }
 
 void ViewControl::drag(const ViewCamera&, const PointerEvent& event) {
-  if (is_first_person_) return;
+  if (camera_.is_first_person()) return;
+  flight_.reset();
   is_untouched_ = false;
   if (event.button == Button::kLeft) {
     camera_.orbit(event.moved.x(), event.moved.y());
@@ -176,7 +176,7 @@ bool ViewControl::double_click(const ViewCamera& camera, const PointerEvent& eve
 }
 
 bool ViewControl::scroll(const ViewCamera&, const PointerEvent& event, double steps) {
-  if (is_first_person_) return false;
+  if (camera_.is_first_person()) return false;
   flight_.reset();
   is_untouched_ = false;
   camera_.zoom(std::pow(kZoomStep, steps), event.pixel);

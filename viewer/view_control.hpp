@@ -51,7 +51,6 @@ class ViewControl : public EventHandler {
   /// @brief Numbered viewpoints, from 1 to 9, kept in the preferences.
   void store_bookmark(int number) { bookmarks_[number] = camera_.viewpoint(); }
   bool go_to_bookmark(int number);
-  const std::map<int, Viewpoint>& bookmarks() const { return bookmarks_; }
   void load(const Preferences& preferences);
   void store(Preferences& preferences) const;
 

@@ -4,9 +4,12 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <epoxy/gl.h>
 #include <imgui.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "viewer/framebuffer.hpp"
 #include "viewer/image_texture.hpp"
@@ -21,7 +24,8 @@ constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float kFontSize = 13.0F;              // [px at scale 1]
 constexpr auto kStatusPeriod = 1s;              // ages are counted on
 constexpr double kSlow = 0.040, kFast = 0.012;  // of one drawing: fewer points, more points [s]
-constexpr double kRoom = 0.15;                  // for a map that grows, as a share of its size
+constexpr std::size_t kMostTold = 100;
+constexpr double kRoom = 0.15;  // for a map that grows, as a share of its size
 constexpr std::size_t kFewestPoints = 20'000, kMostPoints = 5'000'000, kFirstPoints = 150'000;
 
 double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -48,6 +52,7 @@ ViewerCore::~ViewerCore() = default;
 void ViewerCore::set_fonts() {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
+  if (!io.Fonts->Fonts.empty()) return;  // another source in the same window
   // Dear ImGui's own font knows ASCII alone and one size.
   if (std::filesystem::exists(kFont)) {
     io.Fonts->AddFontFromFileTTF(kFont, kFontSize * scale_);
@@ -129,8 +134,11 @@ void ViewerCore::draw_scene(const Layout& layout) {
                             app_->theme,
                             layout.scale,
                             point_budget_};
-  draw_all(app_->renderers, context);
+  for (const std::string& fault : draw_all(app_->renderers, context)) {
+    if (told_.insert(fault).second) app_->workbench.tell(Level::kFailing, fault);
+  }
   glFinish();  // to know what it took
+  if (told_.size() > kMostTold) told_.clear();
   const double took = seconds(Clock::now() - begin);
   if (took > kSlow) point_budget_ = std::max(kFewestPoints, point_budget_ * 3 / 4);
   if (took < kFast) point_budget_ = std::min(kMostPoints, point_budget_ * 5 / 4);
@@ -139,7 +147,7 @@ void ViewerCore::draw_scene(const Layout& layout) {
 // A map that grows stays in view as a whole, until the operator looks where he wants.
 void ViewerCore::show_all_while_untouched() {
   if (!app_->view.is_untouched()) return;
-  const Eigen::AlignedBox3d bounds = app_->workbench.scene().bounds();
+  const Eigen::AlignedBox3d& bounds = app_->workbench.bounds();
   if (bounds.isEmpty() || shown_.contains(bounds)) return;
   const bool is_first = shown_.isEmpty();
   shown_ = bounds;
@@ -160,26 +168,39 @@ void ViewerCore::upload_images() {
   depth_->set(depth_picture(layer.frame->depth));
 }
 
+// Whoever is typing, or answers a question, means no action.
 void ViewerCore::take_keys() {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || app_->dialog != Dialog::kNone) return;
-  const auto is_pressed = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); };
-  if (is_pressed(ImGuiKey_Escape)) {
-    if (app_->is_help_shown) {
-      app_->is_help_shown = false;
-    } else if (app_->tool) {
-      app_->cancel();
-    } else {
-      app_->workbench.select({});
+  const bool is_typing = ImGui::GetIO().WantTextInput;
+  for (const KeyPress& key : std::exchange(keys_, {})) {
+    if (is_typing || app_->dialog != Dialog::kNone) continue;
+    if (take_tool_key(key.key)) continue;
+    for (const Action& action : app_->actions) {
+      const bool is_meant = action.key != 0 && key.key == action.key &&
+                            key.control == action.control && key.shift == action.shift;
+      if (is_meant) run(*app_, action);
     }
   }
-  const bool is_enter = is_pressed(ImGuiKey_Enter) || is_pressed(ImGuiKey_KeyPadEnter);
-  if (app_->tool && is_enter) app_->tool->accept();
-  if (app_->tool && is_pressed(ImGuiKey_Backspace)) app_->tool->step_back();
-  for (const Action& action : app_->actions) {
-    const bool is_meant = action.key != 0 && ImGui::IsKeyPressed(action.key, false) &&
-                          io.KeyCtrl == action.control && io.KeyShift == action.shift;
-    if (is_meant && action.is_possible()) action.run();
+}
+
+bool ViewerCore::take_tool_key(int key) {
+  Tool* const tool = app_->tool;
+  switch (key) {
+    case GLFW_KEY_ESCAPE:
+      if (app_->is_help_shown) {
+        app_->is_help_shown = false;
+      } else if (tool) {
+        app_->cancel();
+      } else {
+        app_->workbench.select({});
+      }
+      return true;
+    case GLFW_KEY_ENTER:
+    case GLFW_KEY_KP_ENTER:
+      return tool && tool->accept();
+    case GLFW_KEY_BACKSPACE:
+      return tool && tool->step_back();
+    default:
+      return false;
   }
 }
 

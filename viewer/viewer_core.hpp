@@ -4,6 +4,9 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "viewer/app.hpp"
 #include "viewer/event_handler.hpp"
@@ -14,6 +17,12 @@ namespace geomap::viewer {
 
 class Framebuffer;
 class ImageTexture;
+
+/// @brief A key as GLFW numbers them, with what was held down when it was pressed.
+struct KeyPress {
+  int key = 0;
+  bool control = false, shift = false;
+};
 
 /// @brief The viewer without a window: draws itself into any framebuffer, and takes
 /// mouse and keys from Dear ImGui's input. Needs a current OpenGL 3.3 context as long as it lives.
@@ -27,6 +36,9 @@ class ViewerCore {
 
   App& app() { return *app_; }
 
+  /// @brief A key that was pressed, for the actions; none is lost however long a frame takes. Dear
+  /// ImGui's fields get theirs by its own input.
+  void press(const KeyPress& key) { keys_.push_back(key); }
   /// @brief Takes what has come. @return true when the window is to be drawn anew.
   bool update(Clock::time_point now);
   /// @brief Draws all of the window. Dear ImGui's display size, mouse and keys have been set.
@@ -48,6 +60,7 @@ class ViewerCore {
   void set_fonts();
   void take_mouse(const Layout& layout);
   void take_keys();
+  bool take_tool_key(int key);
   void draw_scene(const Layout& layout);
   void upload_images();
   void show_all_while_untouched();
@@ -56,6 +69,7 @@ class ViewerCore {
   float scale_;
   std::unique_ptr<App> app_;
   EventDispatcher events_;
+  std::vector<KeyPress> keys_;
   std::unique_ptr<Framebuffer> framebuffer_;
   std::unique_ptr<ImageTexture> color_, depth_;
   Stamp image_stamp_ = 0;
@@ -64,6 +78,7 @@ class ViewerCore {
   Eigen::AlignedBox3d shown_;  // what was in view when all was shown last
   std::optional<bool> styled_dark_;
   Clock::time_point status_drawn_;
+  std::set<std::string> told_;  // what renderers could not draw
 };
 
 }  // namespace geomap::viewer

@@ -118,6 +118,7 @@ int run(const Arguments& arguments, const messaging::CommonOptions& common) {
   options.height = static_cast<int>(arguments.size[1]);
   options.scale = arguments.scale;
   options.is_to_end = messaging::stop_requested;
+  options.open = viewer::open_file;
   viewer::run_window(std::move(source), preferences, options).save(file);
   return 0;
 }

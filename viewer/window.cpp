@@ -16,7 +16,7 @@
 #include <string>
 #include <utility>
 
-#include "viewer/framebuffer.hpp"
+#include "viewer/key_queue.hpp"
 #include "viewer/movie.hpp"
 #include "viewer/png_file.hpp"
 #include "viewer/viewer_core.hpp"
@@ -46,7 +46,14 @@ class GlfwWindow {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    window_ = glfwCreateWindow(options.width, options.height, "geomap", nullptr, nullptr);
+    // A size in pixels, larger with larger text, but no larger than the screen.
+    const double scale = std::max(1.0, options.scale);
+    const GLFWvidmode* mode = glfwGetVideoMode(glfwGetPrimaryMonitor());
+    const int width =
+        std::min(static_cast<int>(options.width * scale), mode ? mode->width : 1 << 14);
+    const int height =
+        std::min(static_cast<int>(options.height * scale), mode ? mode->height : 1 << 14);
+    window_ = glfwCreateWindow(width, height, "geomap", nullptr, nullptr);
     if (!window_) {
       const std::string why = glfw_error();
       glfwTerminate();
@@ -56,7 +63,8 @@ class GlfwWindow {
     glfwSwapInterval(1);
     set_callbacks();
     ImGui::CreateContext();
-    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    // The keys come by way of the queue.
+    ImGui_ImplGlfw_InitForOpenGL(window_, false);
     ImGui_ImplOpenGL3_Init("#version 330");
   }
   ~GlfwWindow() {
@@ -76,6 +84,9 @@ class GlfwWindow {
     return static_cast<double>(std::max(x, y));
   }
   bool take_input() { return std::exchange(has_input_, false); }
+  KeyQueue& keys() { return keys_; }
+  /// @brief A file that was dropped on it; empty: none.
+  std::filesystem::path take_file() { return std::exchange(file_, {}); }
 
   void toggle_fullscreen() {
     if (glfwGetWindowMonitor(window_)) {
@@ -91,26 +102,47 @@ class GlfwWindow {
   }
 
  private:
-  static void note(GLFWwindow* window) {
-    static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window))->has_input_ = true;
+  static GlfwWindow& note(GLFWwindow* window) {
+    auto& self = *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window));
+    self.has_input_ = true;
+    return self;
   }
 
-  // Before Dear ImGui's own, which call these.
   void set_callbacks() {
     glfwSetWindowUserPointer(window_, this);
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { note(w); });
-    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { note(w); });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { note(w); });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { note(w); });
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int, int, int, int) { note(w); });
-    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { note(w); });
-    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { note(w); });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
+      note(w);
+      ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
+      note(w);
+      ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
+    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double dx, double dy) {
+      note(w);
+      ImGui_ImplGlfw_ScrollCallback(w, dx, dy);
+    });
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+      note(w).keys_.add_key(key, scancode, action, mods);
+    });
+    glfwSetCharCallback(
+        window_, [](GLFWwindow* w, unsigned character) { note(w).keys_.add_character(character); });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
+      note(w);
+      ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+    });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+      if (count > 0) note(w).file_ = paths[0];
+    });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { note(w); });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { note(w); });
   }
 
   GLFWwindow* window_ = nullptr;
   bool has_input_ = true;
+  KeyQueue keys_;
+  std::filesystem::path file_;
   std::array<int, 4> place_{};  // before it filled the screen
 };
 
@@ -155,8 +187,11 @@ class Recorder {
 
   void film(int width, int height, Clock::time_point now) {
     if (!app_.is_filming && movie_) {
-      app_.workbench.tell(Level::kGood, "film written to " + movie_->path().string());
+      const std::filesystem::path path = movie_->path();
+      const std::string fault = movie_->finish();
       movie_.reset();
+      app_.workbench.tell(fault.empty() ? Level::kGood : Level::kFailing,
+                          fault.empty() ? fmt::format("film: {}", path.string()) : fault);
     }
     if (!is_due(now)) return;
     if (!movie_) movie_.emplace(name_by_time(), width, height);
@@ -170,6 +205,70 @@ class Recorder {
   Clock::time_point next_;
 };
 
+// The window of one source, until it is closed or another file is to be shown.
+class Session {
+ public:
+  Session(GlfwWindow& window, std::unique_ptr<MapSource> source, const Preferences& preferences,
+          double scale)
+      : window_(window),
+        core_(std::move(source), preferences, static_cast<float>(scale)),
+        recorder_(core_.app()) {
+    glfwSetWindowTitle(window.get(), ("geomap: " + app().workbench.source().title()).c_str());
+  }
+
+  App& app() { return core_.app(); }
+
+  void run(const WindowOptions& options) {
+    while (!app().wants_quit && app().wants_open.empty() && !options.is_to_end()) {
+      wait();
+      if (glfwWindowShouldClose(window_.get()) == GLFW_TRUE) {
+        glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
+        app().quit();
+        frames_left_ = kFramesAfterInput;
+      }
+      const std::filesystem::path dropped = window_.take_file();
+      if (!dropped.empty()) app().wants_open = dropped;
+      draw_if_due(Clock::now());
+    }
+  }
+
+ private:
+  void wait() {
+    const bool is_busy = frames_left_ > 0 || core_.is_moving() || !window_.keys().empty() ||
+                         app().workbench.source().has_more();
+    if (is_busy) {
+      glfwPollEvents();
+    } else {
+      glfwWaitEventsTimeout(kNap);
+    }
+  }
+
+  void draw_if_due(Clock::time_point now) {
+    const bool has_changed = core_.update(now);
+    if (window_.take_input()) frames_left_ = kFramesAfterInput;
+    const bool has_keys = !window_.keys().empty();
+    if (frames_left_ == 0 && !has_changed && !has_keys && !core_.is_moving() &&
+        !recorder_.is_due(now)) {
+      return;
+    }
+    frames_left_ = std::max(0, frames_left_ - 1);
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_.get(), &width, &height);
+    if (width <= 0 || height <= 0) return;  // an icon
+    for (const KeyPress& key : window_.keys().deliver(window_.get())) core_.press(key);
+    ImGui_ImplGlfw_NewFrame();
+    core_.draw(0, width, height, now);
+    recorder_.take(width, height, now);
+    glfwSwapBuffers(window_.get());
+    if (std::exchange(app().wants_fullscreen, false)) window_.toggle_fullscreen();
+  }
+
+  GlfwWindow& window_;
+  ViewerCore core_;
+  Recorder recorder_;
+  int frames_left_ = kFramesAfterInput;
+};
+
 }  // namespace
 
 Preferences run_window(std::unique_ptr<MapSource> source, const Preferences& preferences,
@@ -177,33 +276,22 @@ Preferences run_window(std::unique_ptr<MapSource> source, const Preferences& pre
   std::signal(SIGPIPE, SIG_IGN);  // of an ffmpeg that has ended: seen when writing to it
   GlfwWindow window(options);
   const double scale = options.scale > 0.0 ? options.scale : window.content_scale();
-  ViewerCore core(std::move(source), preferences, static_cast<float>(scale));
-  App& app = core.app();
-  glfwSetWindowTitle(window.get(), ("geomap: " + app.workbench.source().title()).c_str());
-  Recorder recorder(app);
-  int frames_left = kFramesAfterInput;
-  while (glfwWindowShouldClose(window.get()) == GLFW_FALSE && !app.wants_quit &&
-         !options.is_to_end()) {
-    if (frames_left > 0 || core.is_moving()) {
-      glfwPollEvents();
-    } else {
-      glfwWaitEventsTimeout(kNap);
+  auto session = std::make_unique<Session>(window, std::move(source), preferences, scale);
+  while (true) {
+    session->run(options);
+    App& app = session->app();
+    app.store_preferences();
+    if (app.wants_open.empty()) return app.preferences;
+    const std::filesystem::path file = std::exchange(app.wants_open, {});
+    try {
+      auto opened = options.open(file);
+      const Preferences kept = app.preferences;
+      session.reset();  // only one at a time has Dear ImGui
+      session = std::make_unique<Session>(window, std::move(opened), kept, scale);
+    } catch (const std::exception& error) {
+      session->app().workbench.tell(Level::kFailing, error.what());
     }
-    const Clock::time_point now = Clock::now();
-    const bool has_changed = core.update(now);
-    if (window.take_input()) frames_left = kFramesAfterInput;
-    if (frames_left == 0 && !has_changed && !core.is_moving() && !recorder.is_due(now)) continue;
-    frames_left = std::max(0, frames_left - 1);
-    int width = 0, height = 0;
-    glfwGetFramebufferSize(window.get(), &width, &height);
-    ImGui_ImplGlfw_NewFrame();
-    core.draw(0, width, height, now);
-    recorder.take(width, height, now);
-    glfwSwapBuffers(window.get());
-    if (std::exchange(app.wants_fullscreen, false)) window.toggle_fullscreen();
   }
-  app.store_preferences();
-  return app.preferences;
 }
 
 }  // namespace geomap::viewer

@@ -36,6 +36,7 @@ bool Workbench::update(Clock::time_point now) {
     std::erase_if(selection_.selected, is_gone);
     if (selection_.hovered && is_gone(*selection_.hovered)) selection_.hovered.reset();
   }
+  update_bounds();
   is_changed |= take_outcomes();
   is_changed |= forget_shown(now);
   return is_changed;
@@ -44,15 +45,19 @@ bool Workbench::update(Clock::time_point now) {
 bool Workbench::take_outcomes() {
   const std::vector<Outcome> outcomes = source_->take_outcomes();
   for (const Outcome& outcome : outcomes) {
-    tell(outcome.is_done ? Level::kGood : Level::kFailing, outcome.text);
-    saves_.erase(outcome.command);
+    tell(outcome.is_done ? Level::kGood : Level::kFailing, in_words(outcome.text));
+    if (saves_.erase(outcome.command) > 0 && outcome.is_done) unsaved_ = 0;
     const auto pending = std::find_if(pending_.begin(), pending_.end(), [&](const Pending& each) {
       return each.command.command == outcome.command;
     });
     if (pending == pending_.end()) continue;
     if (outcome.is_done) {
       pending->revision = outcome.revision;
-      for (const auto& id : pending->command.targets) done_[id].push_back(outcome.text);
+      pending->answered = Clock::now();
+      ++unsaved_;
+      for (const auto& id : pending->command.targets) {
+        done_[id].push_back(in_words(outcome.text));
+      }
     } else {
       pending_.erase(pending);
       show_pending();
@@ -66,10 +71,30 @@ bool Workbench::forget_shown(Clock::time_point now) {
   const std::size_t forgotten = std::erase_if(pending_, [&](const Pending& pending) {
     if (!pending.revision) return false;
     return scene_.map.epoch != pending.epoch || scene_.map.revision >= *pending.revision ||
-           now - pending.asked > kLongestWait;
+           now - pending.answered > kLongestWait;
   });
   if (forgotten > 0) show_pending();
   return forgotten > 0;
+}
+
+void Workbench::update_bounds() {
+  const std::array<Stamp, 3> stamps = {scene_.map.stamp, scene_.points.stamp, scene_.track.stamp};
+  if (stamps == bounds_stamps_) return;
+  bounds_stamps_ = stamps;
+  bounds_ = scene_.track_and_points();
+  for (const auto& [id, surface] : surfaces_.surfaces()) bounds_.extend(surface.box);
+}
+
+// Ids are for programs: people see the numbers of the list.
+std::string Workbench::in_words(const std::string& text) const {
+  std::string words = text;
+  for (const auto& [id, surface] : surfaces_.surfaces()) {
+    const std::string name = mapping::to_string(id);
+    for (std::size_t at = words.find(name); at != std::string::npos; at = words.find(name, at)) {
+      words.replace(at, name.size(), fmt::format("#{}", surface.number));
+    }
+  }
+  return words;
 }
 
 void Workbench::show_pending() {
@@ -115,7 +140,7 @@ void Workbench::ask(EditCommand command) {
     tell(Level::kFailing, fault);
     return;
   }
-  pending_.push_back({command, Clock::now(), std::nullopt, scene_.map.epoch});
+  pending_.push_back({command, {}, std::nullopt, scene_.map.epoch});
   show_pending();
   source_->edit(command);
 }
@@ -199,12 +224,20 @@ void Workbench::export_to(const std::string& file) {
   }
 }
 
+bool Workbench::is_locked(const mapping::FeatureId& id) const {
+  const auto found = scene_.map.features.find(id);
+  return found != scene_.map.features.end() && found->second.locked;
+}
+
 bool Workbench::is_all_locked() const {
-  return !selection_.selected.empty() &&
-         std::all_of(selection_.selected.begin(), selection_.selected.end(), [&](const auto& id) {
-           const auto found = scene_.map.features.find(id);
-           return found != scene_.map.features.end() && found->second.locked;
-         });
+  const auto& ids = selection_.selected;
+  return !ids.empty() &&
+         std::all_of(ids.begin(), ids.end(), [this](const auto& id) { return is_locked(id); });
+}
+
+bool Workbench::is_any_locked() const {
+  const auto& ids = selection_.selected;
+  return std::any_of(ids.begin(), ids.end(), [this](const auto& id) { return is_locked(id); });
 }
 
 bool Workbench::is_waiting() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <deque>
 #include <map>
 #include <memory>
@@ -67,11 +68,17 @@ class Workbench {
 
   /// @brief True when all that is selected is held by the operator.
   bool is_all_locked() const;
+  bool is_any_locked() const;
   /// @brief True while edits have no answer.
   bool is_waiting() const;
 
   /// @brief What this operator has done to a feature since the start, in words.
   std::vector<std::string> done_to(const mapping::FeatureId& id) const;
+
+  /// @brief Box around map, points and camera path; empty when there is nothing.
+  const Eigen::AlignedBox3d& bounds() const { return bounds_; }
+  /// @brief True when a saved map has edits that no file holds yet.
+  bool has_unsaved_edits() const { return !source_->is_live() && unsaved_ > 0; }
 
   void tell(Level level, const std::string& text);
   /// @brief The newest ones last; at most some ten.
@@ -80,7 +87,7 @@ class Workbench {
  private:
   struct Pending {
     mapping::EditCommand command;
-    Clock::time_point asked;
+    Clock::time_point answered;
     std::optional<std::int64_t> revision;  // from which on it is to be seen; nothing: no answer yet
     std::int64_t epoch = 0;                // of the map when it was asked
   };
@@ -89,7 +96,10 @@ class Workbench {
   void ask(mapping::EditCommand command);
   bool take_outcomes();
   bool forget_shown(Clock::time_point now);
+  bool is_locked(const mapping::FeatureId& id) const;
   void show_pending();
+  void update_bounds();
+  std::string in_words(const std::string& text) const;
 
   std::unique_ptr<MapSource> source_;
   SceneModel scene_;
@@ -103,6 +113,9 @@ class Workbench {
   mapping::CommandNumbers numbers_;
   std::string author_;
   Stamp map_stamp_ = 0;
+  std::array<Stamp, 3> bounds_stamps_{};
+  Eigen::AlignedBox3d bounds_;
+  int unsaved_ = 0;  // edits since the last save
 };
 
 }  // namespace geomap::viewer

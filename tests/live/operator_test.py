@@ -17,7 +17,7 @@ import live_mapper
 import live_system
 
 WIDTH, HEIGHT = 1280, 800
-SCENE = (250, 40, 1010, 770)  # left, top, right, bottom of the drawing in the window
+SCENE = (250, 40, 1010, 752)  # left, top, right, bottom of the drawing in the window
 FIELD = 0.9                   # of the view [rad]
 DISTANCE = 7.0                # of the eye [m]
 FURTHER = 100                 # key frames after an edit
@@ -199,8 +199,7 @@ class Operator(live_mapper.FedMapper):
         self.click((1065, 78), count=2)  # the number field "along normal"
         self.press("ctrl+a")
         self.type("0.25")
-        self.press("Return")
-        command, answer = self.edit_by(lambda: self.click((1068, 247)))  # "Move it"
+        command, answer = self.edit_by(lambda: self.press("Return"))
         self.assertEqual(self.target_of(command), floor["id"])
         self.assertTrue(answer.done, answer.text)
         shift = command.T_world_moved.translation

@@ -86,7 +86,7 @@ viewer::MapLayer map_of(const Vector3d& corner) {
                      .feature = feature_of(gone, corner),
                      .region = outline_of(gone)};
   map.vetoes.push_back(veto);
-  map.stamp = 1;
+  map.stamp = map.veto_stamp = 1;
   return map;
 }
 
@@ -183,7 +183,11 @@ viewer::FrameLayer frame_of(const Eigen::Isometry3d& T_world_camera) {
       }
     }
   }
-  return {.frame = frame, .T_world_camera = T_world_camera, .stamp = 1};
+  viewer::FrameLayer layer;
+  layer.frame = frame;
+  layer.T_world_camera = T_world_camera;
+  layer.stamp = 1;
+  return layer;
 }
 
 viewer::ViewCamera view_from(const viewer::Viewpoint& viewpoint) {

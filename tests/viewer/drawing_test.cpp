@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <limits>
+#include <stdexcept>
 
 #include "viewer/drawing_scene.hpp"
 #include "viewer/render_points.hpp"
@@ -54,15 +55,163 @@ TEST_F(Drawing, UnchangedLayersAreUploadedOnce) {
   EXPECT_EQ(uploads_after(*painter_, before), 0);
 }
 
-TEST_F(Drawing, AChangedPolygonAloneIsUploadedAgain) {
+TEST_F(Drawing, AChangedPolygonAloneIsCutIntoTrianglesAgain) {
+  const auto& polygons = dynamic_cast<viewer::RenderPolygons&>(only("Map polygons"));
+  SceneModel scene = drawing_scene();
+  draw(scene, oblique_view());
+  const std::int64_t before = painter_->uploads(), made = polygons.shapes_made();
+  EXPECT_EQ(made, static_cast<std::int64_t>(scene.map.features.size()));
+  scene.map.stamp = 2;
+  draw(scene, oblique_view());
+  EXPECT_EQ(uploads_after(*painter_, before), 0);
+  scene.map.features.at(drawn_id(kTable)).origin[2] += 1000;
+  scene.map.stamp = 3;
+  draw(scene, oblique_view());
+  EXPECT_EQ(uploads_after(*painter_, before), 1);  // all share a buffer
+  EXPECT_EQ(polygons.shapes_made(), made + 1);
+}
+
+TEST_F(Drawing, APolygonThatIsGoneIsNotDrawnAndTheOthersKeepTheirColours) {
   only("Map polygons");
   SceneModel scene = drawing_scene();
   draw(scene, oblique_view());
-  const std::int64_t before = painter_->uploads();
-  scene.map.features.at(drawn_id(kTable)).origin[2] += 1000;
+  scene.map.features.erase(drawn_id(kWestWall));
+  scene.map.stamp = 2;
+  const Image after = draw(scene, oblique_view());
+  renderers_ = viewer::make_renderers(painter_);
+  only("Map polygons");
+  EXPECT_EQ(draw(scene, oblique_view()), after);
+}
+
+TEST_F(Drawing, VetoesAreUploadedOnceAndNotAgainWithTheMap) {
+  only("Kept-out surfaces");
+  SceneModel scene = drawing_scene();
+  scene.map.vetoes.resize(50, scene.map.vetoes.front());
+  draw(scene, oblique_view());
+  EXPECT_EQ(painter_->uploads(), 1);
   scene.map.stamp = 2;
   draw(scene, oblique_view());
-  EXPECT_EQ(uploads_after(*painter_, before), 2);  // its triangles and its outline
+  EXPECT_EQ(painter_->uploads(), 1);
+  scene.map.vetoes.clear();
+  scene.map.veto_stamp = 2;
+  EXPECT_EQ(count_of(draw(scene, oblique_view()), theme_.background), 320 * 200);
+}
+
+TEST_F(Drawing, APathThatGrowsLooksLikeOneThatCameAtOnce) {
+  only("Trajectory");
+  const SceneModel whole = drawing_scene();
+  SceneModel scene = whole;
+  scene.track.poses.clear();
+  for (const auto& pose : whole.track.poses) {
+    scene.track.poses.push_back(pose);
+    ++scene.track.stamp;
+    draw(scene, oblique_view());
+  }
+  const Image grown = draw(scene, oblique_view());
+  renderers_ = viewer::make_renderers(painter_);
+  only("Trajectory");
+  EXPECT_EQ(draw(whole, oblique_view()), grown);
+}
+
+// Draws nothing, and fails.
+class RenderFailing : public viewer::Renderer {
+ public:
+  RenderFailing() : Renderer("Failing", true) {}
+  int order() const override { return -100; }
+  void draw(const viewer::DrawContext&) override { throw std::runtime_error("odd data"); }
+};
+
+TEST_F(Drawing, ARendererThatFailsIsNamedAndKeepsNoOtherFromBeingDrawn) {
+  const Image before = draw(drawing_scene(), oblique_view());
+  EXPECT_TRUE(failures_.empty());
+  renderers_.insert(renderers_.begin(), std::make_unique<RenderFailing>());
+  EXPECT_EQ(draw(drawing_scene(), oblique_view()), before);
+  EXPECT_EQ(failures_, std::vector<std::string>{"Failing: odd data"});
+  EXPECT_TRUE(renderers_.front()->enabled);
+}
+
+TEST_F(Drawing, WhatIsNowhereOrVeryFarAwayMakesNoRendererFail) {
+  for (const auto& each : renderers_) each->enabled = true;
+  const SceneModel sound = drawing_scene();
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::infinity(), 1.5e5, -1e300}) {
+    SceneModel scene = sound;
+    geometry::PlanarPolygon odd = scene.planes.planes[1];
+    odd.frame.origin.x() = value;
+    scene.planes.planes.push_back(odd);
+    odd = scene.planes.planes[1];
+    odd.frame.x_axis.y() = odd.plane.normal.x() = value;
+    scene.planes.planes.push_back(odd);
+    scene.planes.planes.push_back({});
+    mapping::Veto veto = scene.map.vetoes.front();
+    veto.feature.surface.frame.origin.z() = value;
+    scene.map.vetoes.push_back(veto);
+    scene.map.vetoes.push_back({});
+    scene.track.poses[7].T_world_camera.translation().x() = value;
+    scene.track.newest->T_world_camera.translation().z() = value;
+    scene.frame.T_world_camera->translation().z() = value;
+    scene.points.blocks.begin()->second.box.extend(Eigen::Vector3d::Constant(value));
+    for (auto& [id, feature] : scene.map.features) {
+      if (id == drawn_id(kRamp)) feature.polygon = {};
+      if (id == drawn_id(kTable)) feature.origin = {2'000'000'000, -2'000'000'000, 0};
+      if (id == drawn_id(kCupboard)) feature.normal = {};
+    }
+    renderers_ = viewer::make_renderers(painter_);
+    for (const auto& each : renderers_) each->enabled = true;
+    draw(scene, oblique_view());
+    EXPECT_EQ(failures_, std::vector<std::string>{}) << value;
+  }
+}
+
+TEST_F(Drawing, ManyPolygonsLookAsIfDrawnOneByOne) {
+  only("Map polygons");
+  SceneModel scene = drawing_scene();
+  const mapping::ViewFeature tile = scene.map.features.at(drawn_id(kTable));
+  // Where outlines coincide, chance decides which one is in front: there must be no such place.
+  std::erase_if(scene.map.features, [](const auto& each) {
+    return each.first.plane >= kWestWall && each.first.plane <= kCeiling;
+  });
+  ++scene.map.stamp;
+  // A thousand copies of the table that no one sees, far above the eye, fill the runs.
+  const Image alone = draw(scene, oblique_view());
+  for (int i = 0; i < 1000; ++i) {
+    mapping::ViewFeature copy = tile;
+    copy.id = {1, i};
+    copy.origin[2] = 1'000'000 + 100 * i;
+    scene.map.features.emplace(copy.id, copy);
+  }
+  ++scene.map.stamp;
+  EXPECT_TRUE(looks_alike(difference(draw(scene, oblique_view()), alone, theme_.background)));
+}
+
+TEST_F(Drawing, APolygonIsSeenThroughThePointsThatLieOnIt) {
+  only("Point map");
+  const SceneModel scene = drawing_scene();
+  const Image points = draw(scene, oblique_view());
+  auto& polygons = dynamic_cast<viewer::RenderPolygons&>(renderer("Map polygons"));
+  polygons.enabled = true;
+  polygons.opacity = 1.0;
+  viewer::Selection selection;
+  selection.selected = {drawn_id(kFloor), drawn_id(kTable)};
+  const Image both = draw(scene, oblique_view(), selection);
+  only("Map polygons");
+  const Image alone = draw(scene, oblique_view(), selection);
+  EXPECT_FALSE(looks_alike(difference(both, points, theme_.background)));
+  // The points scatter by 5 mm, and those of faces that are seen from behind do not count.
+  EXPECT_GT(count_of(both, theme_.selected), 6 * count_of(alone, theme_.selected) / 10);
+}
+
+TEST_F(Drawing, TheGridLiesAtTheLowestLevelOfAMapThatIsNotAtZero) {
+  only("Grid");
+  const Eigen::Vector3d below(0.0, 0.0, -1.55);
+  const Image at_zero = draw(SceneModel{}, oblique_view());
+  EXPECT_EQ(draw(drawing_scene(), oblique_view()), at_zero);
+  const Image lowered = draw(drawing_scene(below), oblique_view(below));
+  EXPECT_NE(lowered, at_zero);
+  viewer::Preferences preferences;
+  preferences.set("Grid.at_map", false);
+  renderer("Grid").load(preferences);
+  EXPECT_EQ(draw(drawing_scene(below), oblique_view()), at_zero);
 }
 
 TEST_F(Drawing, AChangedBlockAloneIsUploadedAgainAndOneThatIsGoneIsDropped) {
@@ -117,8 +266,10 @@ TEST_F(Drawing, ARoomOneKilometreAwayLooksTheSame) {
 TEST_F(Drawing, WhatIsAboveAHeightCanBeHidden) {
   only("Point map");
   const SceneModel scene = drawing_scene();
-  const Image all = draw(scene, top_view());
   viewer::Preferences preferences;
+  preferences.set("Point map.paleness", 0.0);
+  renderer("Point map").load(preferences);
+  const Image all = draw(scene, top_view());
   preferences.set("Point map.hides_above", true);
   preferences.set("Point map.hide_height", 2.4);
   renderer("Point map").load(preferences);

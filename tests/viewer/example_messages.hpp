@@ -90,8 +90,11 @@ inline geomap::rgbd_frame_t frame_message(std::int64_t utime, std::int64_t seque
   return messaging::to_message(frame);
 }
 
-inline geomap::keyframe_t keyframe_message(std::int64_t utime, std::int8_t status, double x = 0.0) {
+/// @brief A key frame that was aligned to the map in so many steps; 0: there was no map yet.
+inline geomap::keyframe_t keyframe_message(std::int64_t utime, std::int8_t status, double x = 0.0,
+                                           std::int32_t iterations = 5) {
   geomap::keyframe_t message{};
+  message.iterations = iterations;
   message.utime = utime;
   message.status = status;
   message.T_world_camera = messaging::to_message(Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)));

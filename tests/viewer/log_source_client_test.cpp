@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
+#include "geomap/health_t.hpp"
 #include "mapping/edit_messages.hpp"
 #include "mapping/map_journal.hpp"
 #include "mapping/map_view_messages.hpp"
@@ -146,6 +148,86 @@ TEST_F(LogSourceTest, AStepGoesToTheNextKeyFrameAndPauses) {
     EXPECT_EQ(scene.track.keyframes.size(), before + i);
     EXPECT_FALSE(source->playback()->is_playing());
   }
+}
+
+TEST_F(LogSourceTest, WithoutKeyFramesAStepIsOneEventOfTheCommonestChannel) {
+  {
+    messaging::LogWriter log(path("poses.lcmlog"));
+    for (int i = 1; i <= 50; ++i) {
+      const Eigen::Isometry3d camera(Eigen::Translation3d(0.1 * i, 0, 0));
+      log.write(channels::kCameraPose, 1'000'000 * i,
+                messaging::to_rigid_transform(1'000'000 * i, camera));
+    }
+    log.write(channels::kHealth, 51'000'000, geomap::health_t{});
+    log.close();
+  }
+  const auto source = open_log(path("poses.lcmlog"));
+  SceneModel scene;
+  source->playback()->play(false);
+  settle(*source, scene);
+  for (std::size_t i = 1; i <= 3; ++i) {
+    source->playback()->step();
+    settle(*source, scene);
+    EXPECT_EQ(scene.track.poses.size(), i);
+  }
+}
+
+TEST_F(LogSourceTest, WhileItReadsBackAHalfReadMapIsNeitherSavedNorExported) {
+  // Longer than one update can read, so that the seek is seen under way.
+  messaging::LogWriter more(path("long.lcmlog"));
+  write_drive(more);
+  const geomap::rgbd_frame_t frame = testing::frame_message(21'000'000);
+  for (int i = 0; i < 6'000; ++i) more.write(channels::kRgbdFrame, 21'000'000, frame);
+  more.close();
+  const auto slow = open_log(path("long.lcmlog"));
+  SceneModel shown;
+  slow->playback()->play(false);
+  settle(*slow, shown);
+  slow->playback()->seek(20.0);
+  settle(*slow, shown);
+  slow->playback()->seek(19.9);
+  settle(*slow, shown);
+  const std::size_t features = shown.map.features.size();
+  slow->playback()->seek(18.5);
+  slow->playback()->seek(20.0);
+  slow->update(shown, now_);
+  ASSERT_LT(slow->playback()->progress(), 1.0);
+  EXPECT_TRUE(slow->has_more());
+  slow->save(path("half.lcmlog"));
+  const auto outcomes = slow->take_outcomes();
+  ASSERT_THAT(outcomes, SizeIs(1));
+  EXPECT_FALSE(outcomes[0].is_done);
+  EXPECT_THAT(outcomes[0].text, HasSubstr("read back"));
+  EXPECT_THROW(slow->exact_snapshot(shown), std::runtime_error);
+  EXPECT_EQ(slow->snapshot(shown).features.size(), features);
+  settle(*slow, shown);
+  EXPECT_FALSE(slow->has_more());
+  EXPECT_NO_THROW(slow->exact_snapshot(shown));
+}
+
+TEST_F(LogSourceTest, ALogThatHasGoneAwayEndsInAnOutcome) {
+  const std::string log = drive();
+  const auto source = open_log(log);
+  SceneModel scene;
+  source->playback()->play(false);
+  settle(*source, scene);
+  source->playback()->seek(15.0);
+  settle(*source, scene);
+  const Look before = look_of(scene);
+  source->take_outcomes();
+  std::filesystem::remove(log);
+  source->playback()->play(true);
+  source->playback()->seek(2.0);
+  EXPECT_NO_THROW(source->update(scene, now_));
+  const auto outcomes = source->take_outcomes();
+  ASSERT_THAT(outcomes, SizeIs(1));
+  EXPECT_FALSE(outcomes[0].is_done);
+  EXPECT_THAT(outcomes[0].text, HasSubstr("drive.lcmlog"));
+  EXPECT_FALSE(source->playback()->is_playing());
+  EXPECT_EQ(source->playback()->progress(), 1.0);
+  EXPECT_EQ(look_of(scene), before);
+  source->update(scene, now_);
+  EXPECT_THAT(source->take_outcomes(), IsEmpty());
 }
 
 TEST_F(LogSourceTest, PlayingEndsAtTheEndAndThenBeginsAgain) {

@@ -169,6 +169,17 @@ TEST(EventDispatcher, EverybodyIsToldWhereTheMouseIsAndWhoseIsTheNearest) {
   EXPECT_THAT(none.heard, ElementsAre("hover"));
 }
 
+TEST(EventDispatcher, ASecondButtonDoesNotDragToo) {
+  Recording handler(1.0, true);
+  EventDispatcher events;
+  events.set_handlers({&handler});
+  events.press({}, {});
+  PointerEvent other = moved(20.0);
+  other.button = Button::kRight;
+  events.drag({}, other);
+  EXPECT_THAT(handler.heard, ElementsAre("press"));
+}
+
 TEST(EventDispatcher, ADragEndsWhenItsOwnerLeaves) {
   Recording tool(0.0, true), rest(std::nullopt, true);
   EventDispatcher events;

@@ -81,16 +81,6 @@ TEST_F(Picture, AFramebufferTakesItsBackgroundAndANewSize) {
   EXPECT_EQ(framebuffer.read().rgb, std::vector<std::uint8_t>(105, 0));
 }
 
-TEST_F(Picture, AFramebufferIsCopiedToAnotherOne) {
-  viewer::Framebuffer from(8, 8), to(8, 8);
-  to.begin({});
-  from.begin({0.0F, 1.0F, 0.0F, 1.0F});
-  from.copy_to(to.id(), 0, 4, 8, 4);  // its upper half
-  const Image copied = to.read();
-  EXPECT_EQ(copied.rgb[1], 255);
-  EXPECT_EQ(copied.rgb[3 * 63 + 1], 0);
-}
-
 TEST_F(Picture, AShaderThatDoesNotCompileIsNamedWithItsFault) {
   try {
     const viewer::GlProgram program("broken", {"#version 330 core\nvoid main() { nonsense; }", "",

@@ -95,12 +95,12 @@ viewer::Renderer& Studio::only(const std::string& name) {
 Image Studio::draw(const viewer::SceneModel& scene, const viewer::ViewCamera& camera,
                    const viewer::Selection& selection) {
   framebuffer_->begin(theme_.background);
-  viewer::draw_all(renderers_, {.scene = scene,
-                                .camera = camera,
-                                .selection = selection,
-                                .theme = theme_,
-                                .scale = 1.0F,
-                                .point_budget = point_budget_});
+  failures_ = viewer::draw_all(renderers_, {.scene = scene,
+                                            .camera = camera,
+                                            .selection = selection,
+                                            .theme = theme_,
+                                            .scale = 1.0F,
+                                            .point_budget = point_budget_});
   return framebuffer_->read();
 }
 

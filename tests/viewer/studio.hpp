@@ -31,6 +31,7 @@ class Studio : public ::testing::Test {
 
   viewer::Theme theme_ = viewer::dark_theme();
   std::size_t point_budget_ = 60'000;
+  std::vector<std::string> failures_;  // of renderers, at the last drawing
   std::shared_ptr<viewer::Painter> painter_;
   std::vector<std::unique_ptr<viewer::Renderer>> renderers_;
 

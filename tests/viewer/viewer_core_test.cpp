@@ -84,6 +84,7 @@ class WholeWindow : public ::testing::Test {
   void press(int key, bool control = false) {
     ImGuiIO& io = ImGui::GetIO();
     io.KeyCtrl = control;
+    window_->core().press({key, control, false});
     io.KeysDown[key] = true;
     frames(1);
     io.KeysDown[key] = false;
@@ -137,6 +138,67 @@ TEST_F(WholeWindow, AMotionIsTriedThenAskedForByEnter) {
   ASSERT_THAT(asked(), ElementsAre(EditKind::kMove));
   EXPECT_NEAR(source_->commands[0].T_world_moved.translation().z(), 0.2, 1e-9);
   EXPECT_EQ(app().tool, nullptr);
+}
+
+TEST_F(WholeWindow, AnotherSelectionEndsAMotionThatWasTried) {
+  click({-2, 0, 0});
+  press(GLFW_KEY_M);
+  app().move.set({{0.2, 0, 0}, {}});
+  app().workbench.select({kTable});
+  frames(2);
+  EXPECT_EQ(app().tool, nullptr);
+  EXPECT_THAT(app().workbench.selection().motions, IsEmpty());
+}
+
+TEST_F(WholeWindow, ADoubleClickFliesThere) {
+  const Eigen::Vector3d before = app().view.camera().viewpoint().target;
+  click({-2, 1, 0});
+  ImGui::GetIO().MouseDoubleClickTime = 1e3F;  // however long a frame takes
+  click({-2, 1, 0});
+  app().view.land();
+  EXPECT_LT((app().view.camera().viewpoint().target - Eigen::Vector3d(-2, 1, 0)).norm(), 0.1);
+  EXPECT_GT((app().view.camera().viewpoint().target - before).norm(), 1.0);
+}
+
+TEST_F(WholeWindow, KeysThatComeWithinOneFrameAllCount) {
+  for (int i = 0; i < 5; ++i) window_->core().press({GLFW_KEY_Z, true, false});
+  frames(1);
+  EXPECT_THAT(asked(), SizeIs(5));
+}
+
+TEST_F(WholeWindow, WhatIsHeldIsNotDeletedWithoutAQuestion) {
+  mapping::ViewFeature feature = source_->features.at(kTable);
+  feature.locked = true;
+  source_->put(feature);
+  frames(1);
+  app().workbench.select({kTable});
+  press(GLFW_KEY_DELETE);
+  EXPECT_THAT(asked(), IsEmpty());
+  EXPECT_EQ(app().dialog, Dialog::kConfirmDelete);
+}
+
+TEST_F(WholeWindow, EditsOfASavedMapAreNotLostWithoutAQuestion) {
+  click({-2, 0, 0});
+  press(GLFW_KEY_K);
+  source_->outcomes = {{source_->commands.back().command, true, "edit 1", 1, 1}};
+  frames(1);
+  press(GLFW_KEY_Q, true);
+  EXPECT_FALSE(app().wants_quit);
+  EXPECT_EQ(app().dialog, Dialog::kQuit);
+  press(GLFW_KEY_ESCAPE);
+  frames(2);
+  app().ask(Dialog::kSave, "map");
+  app().save();
+  source_->outcomes = {{77, true, "saved", 0, 0}};
+  frames(1);
+  press(GLFW_KEY_Q, true);
+  EXPECT_TRUE(app().wants_quit);
+}
+
+TEST_F(WholeWindow, FromTheRobotsEyeIsRefusedWhileItIsNotKnownWhereThatIs) {
+  press(GLFW_KEY_V);
+  EXPECT_FALSE(app().view.is_first_person());
+  EXPECT_THAT(app().workbench.notices().back().text, HasSubstr("has not told"));
 }
 
 TEST_F(WholeWindow, EscapeLeavesTheToolThenTheSelection) {

@@ -92,6 +92,13 @@ TEST_F(Bench, ARefusalIsToldInItsWordsAndTheGhostGoes) {
   EXPECT_EQ(bench_.notices().back().level, Level::kFailing);
 }
 
+TEST_F(Bench, AnswersSpeakOfNumbersNotOfIds) {
+  bench_.select({kWall});
+  bench_.remove();
+  answer(false, "1000001-0 and 1000002-0 face 89 degrees apart");
+  EXPECT_EQ(bench_.notices().back().text, "#1 and #2 face 89 degrees apart");
+}
+
 TEST_F(Bench, WhatIsNoEditIsRefusedBeforeItIsSent) {
   bench_.select({kWall});
   bench_.merge();
@@ -251,7 +258,14 @@ TEST_F(Bench, SilenceOfARunningSystemIsAWarningAndOfAFileNot) {
   source_->live = true;
   EXPECT_THAT(stale_warning(scene, *source_, now_).value_or(""), HasSubstr("Nothing heard"));
   scene.heard = now_ - 1s;
+  EXPECT_THAT(stale_warning(scene, *source_, now_).value_or(""), HasSubstr("No geomap-mapper"));
+  scene.processes["geomap-mapper"].heard = now_ - 1s;
+  EXPECT_THAT(stale_warning(scene, *source_, now_).value_or(""), HasSubstr("No robot"));
+  scene.channels["CAMERA_POSE"].last = now_ - 1s;
   EXPECT_FALSE(stale_warning(scene, *source_, now_));
+  scene.processes["geomap-mapper"].heard = now_ - 9s;
+  EXPECT_THAT(stale_warning(scene, *source_, now_).value_or(""),
+              HasSubstr("mapper has been silent"));
   scene.heard = now_ - 12s;
   EXPECT_THAT(stale_warning(scene, *source_, now_).value_or(""), HasSubstr("NO DATA for 12 s"));
 }
@@ -260,7 +274,7 @@ TEST_F(Bench, TheStatusTellsASilentProcessAndARejectedKeyframe) {
   source_->live = true;
   SceneModel scene;
   scene.heard = now_;
-  scene.registration = {Level::kDegraded, "rejected: too little overlap", 1, now_};
+  scene.registration = {Level::kDegraded, "rejected: too little overlap", 1};
   scene.processes["geomap-mapper"].heard = now_ - 9s;
   std::string all;
   Level worst = Level::kGood;
