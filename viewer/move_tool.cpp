@@ -11,7 +11,7 @@
 namespace geomap::viewer {
 namespace {
 
-constexpr double kArrowPixels = 90.0, kRingPixels = 64.0, kReachPixels = 9.0;
+constexpr double kArrowPixels = 90.0, kRingPixels = 64.0, kReachPixels = 9.0, kArrowsFirst = 4.0;
 constexpr int kRingPieces = 48;
 constexpr double kFarthest = 10'000.0;  // of a motion [m] or [rad]
 constexpr double kEdgeOn = 0.1;         // a ring seen so flat cannot be turned by
@@ -104,7 +104,9 @@ std::optional<MoveTool::Handle> MoveTool::handle_at(const ViewCamera& camera,
         if (!a || !b) continue;
         // Arrows begin in one point: there nobody could tell which one is meant.
         const Eigen::Vector2d begin = is_ring ? *a : *a + 0.25 * (*b - *a);
-        const double distance = distance_to_segment(pixel, begin, *b);
+        // Where a ring crosses an arrow's tip the arrow is meant.
+        const double distance =
+            distance_to_segment(pixel, begin, *b) + (is_ring ? kArrowsFirst : 0.0);
         if (distance >= best) continue;
         best = distance;
         nearest = handle;

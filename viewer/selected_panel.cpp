@@ -46,7 +46,7 @@ void draw_feature(const App& app, const mapping::ViewFeature& feature, const Sur
 bool motion_field(const char* name, std::size_t axis, double& value, double step,
                   const char* format, bool& is_finished) {
   ImGui::PushID(name);
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8.0F);
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9.5F);
   const bool is_changed = ImGui::InputDouble("##number", &value, step, 10.0 * step, format);
   is_finished = is_finished || ImGui::IsItemDeactivatedAfterEdit();
   ImGui::SameLine();

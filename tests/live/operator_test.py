@@ -196,10 +196,13 @@ class Operator(live_mapper.FedMapper):
 
         self.click(self.pixel_of(self.visible_point(after_delete["features"], floor)))
         self.press("m")
+        time.sleep(1.0)
         self.click((1065, 78), count=2)  # the number field "along normal"
         self.press("ctrl+a")
         self.type("0.25")
-        command, answer = self.edit_by(lambda: self.press("Return"))
+        time.sleep(1.0)
+        # In the field Enter ends typing and moves; where that was slow the second one moves.
+        command, answer = self.edit_by(lambda: self.press("Return", "Return"))
         self.assertEqual(self.target_of(command), floor["id"])
         self.assertTrue(answer.done, answer.text)
         shift = command.T_world_moved.translation
