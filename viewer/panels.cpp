@@ -149,7 +149,7 @@ void draw_left_panel(App& app, const Layout& layout) {
 void draw_right_panel(App& app, const Layout& layout, unsigned color_texture,
                       unsigned depth_texture) {
   begin_panel("##right", layout.right);
-  const auto& frame = app.workbench.scene().frame.frame;
+  const auto& frame = app.workbench.scene().frame.newest;
   const float line = ImGui::GetFrameHeightWithSpacing();
   const float pictures = frame ? 2.0F * line + 0.4F * ImGui::GetContentRegionAvail().x : 0.0F;
   if (ImGui::CollapsingHeader("Selected", ImGuiTreeNodeFlags_DefaultOpen)) draw_selected(app);

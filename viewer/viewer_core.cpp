@@ -161,11 +161,11 @@ void ViewerCore::show_all_while_untouched() {
 
 void ViewerCore::upload_images() {
   const FrameLayer& layer = app_->workbench.scene().frame;
-  if (!layer.frame || layer.stamp == image_stamp_) return;
+  if (!layer.newest || layer.stamp == image_stamp_) return;
   image_stamp_ = layer.stamp;
-  const geometry::ColorImage& color = layer.frame->color;
+  const geometry::ColorImage& color = layer.newest->color;
   if (!color.empty()) color_->set({color.width, color.height, color.rgb});
-  depth_->set(depth_picture(layer.frame->depth));
+  depth_->set(depth_picture(layer.newest->depth));
 }
 
 // Whoever is typing, or answers a question, means no action.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -36,6 +37,8 @@ class FakeSource : public MapSource {
     scene.map.revision = revision;
     scene.map.is_current = true;
     ++scene.map.stamp;
+    scene.frame.newest = newest;
+    ++scene.frame.stamp;
     return true;
   }
   void edit(const mapping::EditCommand& command) override { commands.push_back(command); }
@@ -59,6 +62,7 @@ class FakeSource : public MapSource {
 
   Features features;
   std::int64_t revision = 1;
+  std::shared_ptr<const geometry::RgbdFrame> newest;
   bool is_changed = true, live = false;
   std::vector<mapping::EditCommand> commands;
   std::vector<Outcome> outcomes;

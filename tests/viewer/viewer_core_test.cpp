@@ -235,6 +235,29 @@ TEST_F(WholeWindow, WhatIsDrawnChangesWithTheHelpThePanelsAndTheTheme) {
   EXPECT_NE(before, window_->image());
 }
 
+TEST_F(WholeWindow, TheNewestPictureIsShownThoughNobodyKnowsWhereItWasTaken) {
+  const auto count = [](const Image& image) {
+    int pixels = 0;
+    for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
+      pixels += image.rgb[i] == 255 && image.rgb[i + 1] == 0 && image.rgb[i + 2] == 255;
+    }
+    return pixels;
+  };
+  EXPECT_EQ(count(window_->image()), 0);
+  auto frame = std::make_shared<geometry::RgbdFrame>();
+  frame->depth_camera = frame->color_camera = {40, 30, 35, 35, 20, 15};
+  frame->depth = {40, 30, std::vector<std::uint16_t>(1200, 1000)};
+  frame->color = {40, 30, {}};
+  for (int i = 0; i < 1200; ++i) {
+    frame->color.rgb.insert(frame->color.rgb.end(),
+                            {std::uint8_t{255}, std::uint8_t{0}, std::uint8_t{255}});
+  }
+  source_->newest = frame;
+  source_->is_changed = true;
+  frames(2);
+  EXPECT_GT(count(window_->image()), 5000);
+}
+
 TEST_F(WholeWindow, TextsOfTheMapAreShownAsTheyAreWhateverIsInThem) {
   for (const char* label : {"%s%s%n", "##", "", "###x", "{}", "äöü"}) {
     mapping::ViewFeature feature = source_->features.at(kTable);
