@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -18,6 +17,7 @@
 #include "mapping/edit_session_client.hpp"
 #include "mapping/edit_text.hpp"
 #include "mapping/feature_filter.hpp"
+#include "mapping/local_time.hpp"
 #include "mapping/operator_name.hpp"
 #include "mapping/parse_number.hpp"
 #include "messaging/program.hpp"
@@ -165,13 +165,10 @@ int print_history(const std::vector<geomap::map_edit_record_t>& records, bool is
                       {"vetoes", std::move(vetoes)}});
       continue;
     }
-    const std::time_t seconds = record.edit_utime / 1'000'000;
-    std::array<char, 32> when{};
-    std::strftime(when.data(), when.size(), "%F %T", std::localtime(&seconds));
     const std::string reason = clean_text(record.reason);
-    fmt::print("{:>4}  {}  {:<8} {}  ({}){}\n", record.number, when.data(), state,
-               clean_text(record.text), clean_text(record.author),
-               reason.empty() ? "" : ": " + reason);
+    fmt::print("{:>4}  {}  {:<8} {}  ({}){}\n", record.number,
+               mapping::local_time(record.edit_utime, "%F %T"), state, clean_text(record.text),
+               clean_text(record.author), reason.empty() ? "" : ": " + reason);
   }
   if (is_json) fmt::print("{}\n", list.dump(1));
   if (!is_json && records.empty()) fmt::print("no edits\n");

@@ -56,6 +56,29 @@ geomap::map_event_t to_message(const MapEvent& event) {
   return message;
 }
 
+std::shared_ptr<const Observation> from_message(const geomap::plane_set_t& message) {
+  auto planes = messaging::from_message(message);
+  if (!planes) return nullptr;
+  auto observation = std::make_shared<Observation>();
+  observation->keyframe = planes->keyframe;
+  observation->T_world_camera = planes->T_world_camera;
+  observation->planes = std::move(planes->planes);
+  return observation;
+}
+
+std::vector<MapEvent> from_message(const geomap::keyframe_update_t& message) {
+  std::vector<MapEvent> events;
+  PoseCorrection correction;
+  for (const geomap::pose_correction_t& pose : message.corrections) {
+    correction.poses.emplace_back(pose.keyframe, messaging::from_message(pose.T_world_camera));
+  }
+  if (!correction.poses.empty()) events.emplace_back(std::move(correction));
+  for (const std::int64_t keyframe : message.removed) {
+    events.emplace_back(KeyframeRemoval{keyframe});
+  }
+  return events;
+}
+
 std::optional<MapEvent> from_message(const geomap::map_event_t& message) {
   switch (message.kind) {
     case geomap::map_event_t::OBSERVATION: {

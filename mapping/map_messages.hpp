@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "geomap/edit_t.hpp"
 #include "geomap/feature_state_t.hpp"
+#include "geomap/keyframe_update_t.hpp"
 #include "geomap/map_contents_t.hpp"
 #include "geomap/map_event_t.hpp"
 #include "geomap/observation_id_t.hpp"
+#include "geomap/plane_set_t.hpp"
 #include "mapping/map_contents.hpp"
 #include "mapping/map_event.hpp"
 #include "mapping/map_feature.hpp"
@@ -21,6 +25,13 @@ ObservationId from_message(const geomap::observation_id_t& id);
 geomap::map_event_t to_message(const MapEvent& event);
 /// @brief The inverse; nothing for an unknown kind or a plane that is refused.
 std::optional<MapEvent> from_message(const geomap::map_event_t& message);
+
+/// @brief The planes of a key frame as extraction publishes them; null when one is refused.
+std::shared_ptr<const Observation> from_message(const geomap::plane_set_t& message);
+
+/// @brief What registration tells of key frames, as events in their order: all corrections
+/// together, then each removal.
+std::vector<MapEvent> from_message(const geomap::keyframe_update_t& message);
 
 /// @brief An edit, exact in every number.
 geomap::edit_t to_message(const Edit& edit);

@@ -7,11 +7,12 @@
 #include <memory>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "mapping/map_hash.hpp"
 #include "mapping/map_journal.hpp"
+#include "mapping/map_messages.hpp"
 #include "messaging/channels.hpp"
-#include "messaging/convert_geometry.hpp"
 #include "messaging/log.hpp"
 #include "messaging/stopwatch.hpp"
 
@@ -74,29 +75,19 @@ void MapperProcess::take_planes(const geomap::plane_set_t& message) {
     live_.health().count("paused.keyframes");
     return;
   }
-  auto planes = messaging::from_message(message);
-  if (!planes) {
+  const auto observation = from_message(message);
+  if (!observation) {
     live_.reject(channels::kPlanes, "bad_plane");
     return;
   }
-  auto observation = std::make_shared<Observation>();
-  observation->keyframe = planes->keyframe;
-  observation->T_world_camera = planes->T_world_camera;
-  observation->planes = std::move(planes->planes);
-  apply(channels::kPlanes, std::shared_ptr<const Observation>(std::move(observation)),
-        ViewCause::kObservation);
+  apply(channels::kPlanes, observation, ViewCause::kObservation);
 }
 
 void MapperProcess::take_update(const geomap::keyframe_update_t& update) {
-  PoseCorrection correction;
-  for (const geomap::pose_correction_t& pose : update.corrections) {
-    correction.poses.emplace_back(pose.keyframe, messaging::from_message(pose.T_world_camera));
-  }
-  if (!correction.poses.empty()) {
-    apply(channels::kKeyframeUpdate, correction, ViewCause::kPoseCorrection);
-  }
-  for (const std::int64_t keyframe : update.removed) {
-    apply(channels::kKeyframeUpdate, KeyframeRemoval{keyframe}, ViewCause::kKeyframeRemoval);
+  for (const MapEvent& event : from_message(update)) {
+    const bool is_removal = std::holds_alternative<KeyframeRemoval>(event);
+    apply(channels::kKeyframeUpdate, event,
+          is_removal ? ViewCause::kKeyframeRemoval : ViewCause::kPoseCorrection);
   }
 }
 

@@ -46,9 +46,7 @@ void App::start(Tool& next) {
 }
 
 void App::update_tool() {
-  if (!tool || !tool->is_done()) return;
-  tool->end();
-  tool = nullptr;
+  if (tool && tool->is_done()) cancel();
 }
 
 void App::cancel() {

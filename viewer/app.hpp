@@ -66,6 +66,7 @@ class App {
   void start(Tool& tool);
   /// @brief Goes on after a tool has done its work.
   void update_tool();
+  /// @brief Ends the tool at work, if any.
   void cancel();
   /// @brief Ends the viewer, or asks first where edits would be lost.
   void quit();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/folded_map_messages.hpp"
 
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -10,9 +9,9 @@
 #include "geomap/map_edit_t.hpp"
 #include "geomap/plane_set_t.hpp"
 #include "mapping/edit_messages.hpp"
+#include "mapping/map_messages.hpp"
 #include "messaging/channels.hpp"
 #include "messaging/config.hpp"
-#include "messaging/convert_geometry.hpp"
 #include "messaging/safe_decode.hpp"
 
 namespace geomap::viewer {
@@ -50,13 +49,9 @@ bool FoldedMap::apply(const mapping::MapEvent& event) {
 
 bool FoldedMap::take_planes(Bytes data) {
   const auto message = decode<geomap::plane_set_t>(data);
-  auto planes = message ? messaging::from_message(*message) : std::nullopt;
-  if (!planes) return false;
-  auto observation = std::make_shared<mapping::Observation>();
-  observation->keyframe = planes->keyframe;
-  observation->T_world_camera = planes->T_world_camera;
-  observation->planes = std::move(planes->planes);
-  const bool is_changed = apply(std::shared_ptr<const mapping::Observation>(observation));
+  const auto observation = message ? mapping::from_message(*message) : nullptr;
+  if (!observation) return false;
+  const bool is_changed = apply(observation);
   return do_placed_edits() || is_changed;
 }
 
@@ -64,13 +59,8 @@ bool FoldedMap::take_update(Bytes data) {
   const auto update = decode<geomap::keyframe_update_t>(data);
   if (!update) return false;
   bool is_changed = false;
-  mapping::PoseCorrection correction;
-  for (const geomap::pose_correction_t& pose : update->corrections) {
-    correction.poses.emplace_back(pose.keyframe, messaging::from_message(pose.T_world_camera));
-  }
-  if (!correction.poses.empty()) is_changed = apply(correction);
-  for (const std::int64_t keyframe : update->removed) {
-    is_changed = apply(mapping::KeyframeRemoval{keyframe}) || is_changed;
+  for (const mapping::MapEvent& event : mapping::from_message(*update)) {
+    is_changed = apply(event) || is_changed;
   }
   return is_changed;
 }

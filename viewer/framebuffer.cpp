@@ -54,17 +54,19 @@ void Framebuffer::begin(const Rgba& background) {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-Image Framebuffer::read() const {
-  const auto row = static_cast<std::ptrdiff_t>(3) * width_;
-  Image image{.width = width_, .height = height_, .rgb = {}};
-  image.rgb.resize(static_cast<std::size_t>(row * height_));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+Image Framebuffer::read() const { return read_pixels(framebuffer_, width_, height_); }
+
+Image read_pixels(unsigned framebuffer, int width, int height) {
+  const auto row = static_cast<std::ptrdiff_t>(3) * width;
+  Image image{.width = width, .height = height, .rgb = {}};
+  image.rgb.resize(static_cast<std::size_t>(row * height));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
   // OpenGL's rows begin at the bottom.
-  for (int y = 0; y < height_ / 2; ++y) {
+  for (int y = 0; y < height / 2; ++y) {
     const auto top = image.rgb.begin() + y * row;
-    std::swap_ranges(top, top + row, image.rgb.begin() + (height_ - 1 - y) * row);
+    std::swap_ranges(top, top + row, image.rgb.begin() + (height - 1 - y) * row);
   }
   return image;
 }

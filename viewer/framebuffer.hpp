@@ -35,4 +35,7 @@ class Framebuffer {
   unsigned framebuffer_ = 0, color_ = 0, depth_ = 0;
 };
 
+/// @brief What is drawn in a framebuffer, 0 being the window's, from its lower left corner on.
+Image read_pixels(unsigned framebuffer, int width, int height);
+
 }  // namespace geomap::viewer

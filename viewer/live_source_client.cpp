@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/live_source_client.hpp"
 
-#include <array>
-#include <ctime>
 #include <stdexcept>
 #include <string_view>
 
 #include "geomap/map_request_t.hpp"
 #include "mapping/edit_messages.hpp"
+#include "mapping/local_time.hpp"
 #include "mapping/operator_name.hpp"
 #include "messaging/channels.hpp"
 #include "viewer/awaited_replies_client.hpp"
@@ -28,10 +27,8 @@ constexpr Clock::duration kEditPeriod = 500ms, kSavePeriod = 2s;  // until it is
 
 // Of these only the newest message matters, and they are large.
 Keep keep_of(const std::string& channel) {
-  for (const char* newest : {channels::kRgbdFrame, channels::kPlanes}) {
-    if (channel == newest) return Keep::kNewest;
-  }
-  return Keep::kEvery;
+  const bool is_large = channel == channels::kRgbdFrame || channel == channels::kPlanes;
+  return is_large ? Keep::kNewest : Keep::kEvery;
 }
 
 class LiveSource : public MapSource {
@@ -93,12 +90,7 @@ class LiveSource : public MapSource {
   }
 
   std::string default_save_name() const override {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    localtime_r(&now, &local);
-    std::array<char, 32> name{};
-    std::strftime(name.data(), name.size(), "map_%Y%m%d_%H%M%S", &local);
-    return name.data();
+    return mapping::local_time("map_%Y%m%d_%H%M%S");
   }
   std::string save_prompt() const override { return "name in the mapper's state folder"; }
 

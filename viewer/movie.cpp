@@ -11,11 +11,11 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "mapping/local_time.hpp"
 #include "viewer/png_file.hpp"
 
 extern char** environ;
@@ -100,11 +100,6 @@ void Movie::add(const Image& image) {
   }
 }
 
-std::filesystem::path name_by_time() {
-  const std::time_t now = std::time(nullptr);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "geomap_%Y%m%d_%H%M%S", std::localtime(&now));
-  return text.data();
-}
+std::filesystem::path name_by_time() { return mapping::local_time("geomap_%Y%m%d_%H%M%S"); }
 
 }  // namespace geomap::viewer

@@ -3,11 +3,11 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <ctime>
 #include <string>
 #include <vector>
 
 #include "geometry/angles.hpp"
+#include "mapping/local_time.hpp"
 #include "viewer/panels.hpp"
 
 namespace geomap::viewer {
@@ -129,10 +129,8 @@ Wish draw_entry(const HistoryEntry& entry) {
     ImGui::TextDisabled("%s", text.c_str());
   }
   if (ImGui::IsItemHovered()) {
-    const std::time_t seconds = entry.utime / 1'000'000;
-    std::array<char, 32> when{};
-    std::strftime(when.data(), when.size(), "%F %T", std::localtime(&seconds));
-    ImGui::SetTooltip("%s\n%s, %s%s%s", text.c_str(), entry.author.c_str(), when.data(),
+    const std::string when = mapping::local_time(entry.utime, "%F %T");
+    ImGui::SetTooltip("%s\n%s, %s%s%s", text.c_str(), entry.author.c_str(), when.c_str(),
                       entry.reason.empty() ? "" : "\n", entry.reason.c_str());
   }
   return wish;

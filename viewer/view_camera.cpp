@@ -77,6 +77,10 @@ Viewpoint ViewCamera::fitting(const Eigen::AlignedBox3d& box) const {
   return fitted;
 }
 
+bool ViewCamera::is_orthographic() const {
+  return viewpoint_.projection == Projection::kOrthographic && !first_person_;
+}
+
 Eigen::Matrix3d ViewCamera::axes() const {
   if (first_person_) {
     Eigen::Matrix3d flipped = first_person_->linear();
@@ -108,7 +112,7 @@ Eigen::Matrix4d ViewCamera::view() const {
 Eigen::Matrix4d ViewCamera::projection() const {
   const double aspect = static_cast<double>(width_) / height_;
   Eigen::Matrix4d projection = Eigen::Matrix4d::Zero();
-  if (viewpoint_.projection == Projection::kOrthographic && !first_person_) {
+  if (is_orthographic()) {
     const double half = viewpoint_.distance * std::tan(0.5 * fov_y_);
     // Things behind the eye's plane are drawn too: seen from above nothing is above the eye.
     const double reach = viewpoint_.distance + kFarthest;
@@ -134,7 +138,7 @@ Ray ViewCamera::ray(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d offset =
       Eigen::Vector2d(pixel.x() - 0.5 * width_, 0.5 * height_ - pixel.y()) / (0.5 * height_);
   const Eigen::Matrix3d turn = axes();
-  if (viewpoint_.projection == Projection::kOrthographic && !first_person_) {
+  if (is_orthographic()) {
     const Eigen::Vector2d shift = offset * viewpoint_.distance * slope;
     // From far enough that everything that is drawn lies ahead.
     const Eigen::Vector3d start = eye() + turn.leftCols<2>() * shift + kFarthest * turn.col(2);
@@ -153,9 +157,8 @@ std::optional<Eigen::Vector2d> ViewCamera::project(const Eigen::Vector3d& point)
 }
 
 double ViewCamera::metres_per_pixel(const Eigen::Vector3d& point) const {
-  const bool is_flat = viewpoint_.projection == Projection::kOrthographic && !first_person_;
   const double depth =
-      is_flat ? viewpoint_.distance : std::max(kNear, (point - eye()).dot(forward()));
+      is_orthographic() ? viewpoint_.distance : std::max(kNear, (point - eye()).dot(forward()));
   return 2.0 * depth * std::tan(0.5 * fov_y_) / height_;
 }
 

@@ -65,6 +65,7 @@ class ViewCamera {
   double fov_y() const { return fov_y_; }  // of the perspective view [rad]
 
  private:
+  bool is_orthographic() const;
   Eigen::Matrix3d axes() const;  // columns: right, up, back, world frame
 
   Viewpoint viewpoint_;

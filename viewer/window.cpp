@@ -3,7 +3,6 @@
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
-#include <epoxy/gl.h>
 #include <fmt/format.h>
 #include <imgui.h>
 #define GLFW_INCLUDE_NONE
@@ -16,6 +15,7 @@
 #include <string>
 #include <utility>
 
+#include "viewer/framebuffer.hpp"
 #include "viewer/key_queue.hpp"
 #include "viewer/movie.hpp"
 #include "viewer/png_file.hpp"
@@ -146,20 +146,6 @@ class GlfwWindow {
   std::array<int, 4> place_{};  // before it filled the screen
 };
 
-Image read_window(int width, int height) {
-  Image image{width, height,
-              std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height))};
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
-  const auto row = static_cast<std::ptrdiff_t>(3 * width);
-  for (int y = 0; y < height / 2; ++y) {
-    const auto top = image.rgb.begin() + y * row,
-               bottom = image.rgb.begin() + (height - 1 - y) * row;
-    std::swap_ranges(top, top + row, bottom);
-  }
-  return image;
-}
-
 // Pictures and films of what has just been drawn.
 class Recorder {
  public:
@@ -181,7 +167,7 @@ class Recorder {
  private:
   void take_screenshot(int width, int height) {
     const std::string file = name_by_time().string() + ".png";
-    write_png(file, read_window(width, height));
+    write_png(file, read_pixels(0, width, height));
     app_.workbench.tell(Level::kGood, "picture written to " + file);
   }
 
@@ -195,7 +181,7 @@ class Recorder {
     }
     if (!is_due(now)) return;
     if (!movie_) movie_.emplace(name_by_time(), width, height);
-    movie_->add(read_window(width, height));
+    movie_->add(read_pixels(0, width, height));
     next_ = now + std::chrono::duration_cast<Clock::duration>(
                       std::chrono::duration<double>(1.0 / Movie::kFramesPerSecond));
   }
