@@ -1,49 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/key_queue.hpp"
 
-#include <backends/imgui_impl_glfw.h>
-#include <imgui.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <string>
+#include <set>
 
 namespace geomap::viewer {
 namespace {
 
-// GLFW numbers keys by their place on an American keyboard: Z and Y change places on a German one.
-int key_by_name(int key, int scancode) {
-  const char* text = glfwGetKeyName(key, scancode);
-  const std::string name = text ? text : "";
-  if (name.size() != 1 || name[0] < 'a' || name[0] > 'z') return key;
-  return GLFW_KEY_A + (name[0] - 'a');
+bool is_held_with_others(int key) {
+  return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
 }
 
 }  // namespace
 
-std::vector<KeyPress> KeyQueue::deliver(GLFWwindow* window) {
-  std::vector<KeyPress> pressed;
+std::vector<KeyQueue::Event> KeyQueue::take_frame() {
+  std::vector<Event> frame;
   std::set<int> changed;
-  bool has_control = false;
+  bool has_press = false, has_control = false;
   while (!events_.empty()) {
-    const Event event = events_.front();
-    if (event.character != 0) {
-      // With Ctrl held Dear ImGui would drop it.
-      if (has_control) break;
-      ImGui_ImplGlfw_CharCallback(window, event.character);
-    } else {
-      if (!changed.insert(event.key).second) break;
-      has_control = has_control || (event.mods & GLFW_MOD_CONTROL) != 0;
-      ImGui_ImplGlfw_KeyCallback(window, event.key, event.scancode, event.action, event.mods);
-      if (event.action == GLFW_PRESS) {
-        pressed.push_back({key_by_name(event.key, event.scancode),
-                           (event.mods & GLFW_MOD_CONTROL) != 0,
-                           (event.mods & GLFW_MOD_SHIFT) != 0});
-      }
-    }
+    const Event& event = events_.front();
+    const bool is_key = event.character == 0;
+    if (!is_key && has_control) break;
+    if (is_key && has_press && is_held_with_others(event.key)) break;
+    if (is_key && !changed.insert(event.key).second) break;
+    has_press =
+        has_press || (is_key && event.action == GLFW_PRESS && !is_held_with_others(event.key));
+    has_control = has_control || (event.mods & GLFW_MOD_CONTROL) != 0;
+    frame.push_back(event);
     events_.pop_front();
   }
-  return pressed;
+  return frame;
 }
 
 }  // namespace geomap::viewer

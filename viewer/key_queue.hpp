@@ -2,35 +2,29 @@
 #pragma once
 
 #include <deque>
-#include <set>
 #include <vector>
-
-#include "viewer/viewer_core.hpp"
-
-struct GLFWwindow;
 
 namespace geomap::viewer {
 
-/// @brief Keys between GLFW and Dear ImGui, which looks at them once a frame: what changes twice
-/// within one frame, as a short press does while a picture is being drawn, waits for the next.
+/// @brief Keys between GLFW and Dear ImGui, which looks once a frame at what is held down. What
+/// would be lost then, as a short press while a picture is being drawn, waits for the next frame.
 class KeyQueue {
  public:
-  void add_key(int key, int scancode, int action, int mods) {
-    events_.push_back({key, scancode, action, mods, 0});
-  }
-  void add_character(unsigned character) { events_.push_back({0, 0, 0, 0, character}); }
-
-  /// @brief Hands to Dear ImGui what one frame can take. @return what was pressed, letters as they
-  /// stand on the keyboard in use.
-  std::vector<KeyPress> deliver(GLFWwindow* window);
-  bool empty() const { return events_.empty(); }
-
- private:
+  /// @brief A key or a character, as GLFW's callbacks have them.
   struct Event {
-    int key, scancode, action, mods;
-    unsigned character;  // 0: a key
+    int key = 0, scancode = 0, action = 0, mods = 0;
+    unsigned character = 0;  // 0: a key
   };
 
+  void add(const Event& event) { events_.push_back(event); }
+  bool empty() const { return events_.empty(); }
+
+  /// @brief What one frame can take, in order: no key changes twice in it, none that is held with
+  /// others (Shift, Ctrl, Alt, Super) changes after another one was pressed, and no character
+  /// comes while Ctrl is held, with which Dear ImGui would drop it.
+  std::vector<Event> take_frame();
+
+ private:
   std::deque<Event> events_;
 };
 

@@ -124,10 +124,11 @@ class GlfwWindow {
       ImGui_ImplGlfw_ScrollCallback(w, dx, dy);
     });
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-      note(w).keys_.add_key(key, scancode, action, mods);
+      note(w).keys_.add({key, scancode, action, mods, 0});
     });
-    glfwSetCharCallback(
-        window_, [](GLFWwindow* w, unsigned character) { note(w).keys_.add_character(character); });
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
+      note(w).keys_.add({0, 0, 0, 0, character});
+    });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
       note(w);
       ImGui_ImplGlfw_WindowFocusCallback(w, focused);
@@ -191,6 +192,14 @@ class Recorder {
   Clock::time_point next_;
 };
 
+// GLFW numbers keys by their place on an American keyboard: Z and Y change places on a German one.
+int key_by_name(int key, int scancode) {
+  const char* text = glfwGetKeyName(key, scancode);
+  const std::string name = text ? text : "";
+  if (name.size() != 1 || name[0] < 'a' || name[0] > 'z') return key;
+  return GLFW_KEY_A + (name[0] - 'a');
+}
+
 // The window of one source, until it is closed or another file is to be shown.
 class Session {
  public:
@@ -229,6 +238,20 @@ class Session {
     }
   }
 
+  void deliver_keys() {
+    for (const KeyQueue::Event& event : window_.keys().take_frame()) {
+      if (event.character != 0) {
+        ImGui_ImplGlfw_CharCallback(window_.get(), event.character);
+        continue;
+      }
+      ImGui_ImplGlfw_KeyCallback(window_.get(), event.key, event.scancode, event.action,
+                                 event.mods);
+      if (event.action != GLFW_PRESS) continue;
+      core_.press({key_by_name(event.key, event.scancode), (event.mods & GLFW_MOD_CONTROL) != 0,
+                   (event.mods & GLFW_MOD_SHIFT) != 0});
+    }
+  }
+
   void draw_if_due(Clock::time_point now) {
     const bool has_changed = core_.update(now);
     if (window_.take_input()) frames_left_ = kFramesAfterInput;
@@ -241,7 +264,7 @@ class Session {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window_.get(), &width, &height);
     if (width <= 0 || height <= 0) return;  // an icon
-    for (const KeyPress& key : window_.keys().deliver(window_.get())) core_.press(key);
+    deliver_keys();
     ImGui_ImplGlfw_NewFrame();
     core_.draw(0, width, height, now);
     recorder_.take(width, height, now);

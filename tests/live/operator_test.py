@@ -197,16 +197,16 @@ class Operator(live_mapper.FedMapper):
         self.click(self.pixel_of(self.visible_point(after_delete["features"], floor)))
         self.press("m")
         time.sleep(1.0)
-        self.click((1129, 85), count=3)  # "+" of "along normal", a centimetre each
+        self.click((1065, 85), count=2)  # the number field "along normal"
+        self.press("ctrl+a")
+        self.type("0.25")
         time.sleep(1.0)
         command, answer = self.edit_by(lambda: self.press("Return"))
         self.assertEqual(self.target_of(command), floor["id"])
         self.assertTrue(answer.done, answer.text)
         shift = command.T_world_moved.translation
-        along = sum(shift[axis] * floor["normal"][axis] for axis in range(3))
-        self.assertGreater(along, 0.005)
         for axis in range(3):
-            self.assertAlmostEqual(shift[axis], along * floor["normal"][axis], places=5)
+            self.assertAlmostEqual(shift[axis], 0.25 * floor["normal"][axis], places=5)
         _, after_move = self.saved()
         self.assertEqual(after_move["hash"],
                          self.offline(deleted, "move", floor["id"], "--about", "0,0,0",
