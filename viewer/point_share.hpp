@@ -8,6 +8,10 @@
 
 namespace geomap::viewer {
 
+/// @brief The live cloud may take one in so many of the points that are drawn, the point map the
+/// others.
+inline constexpr std::size_t kCloudShare = 5;
+
 /// @brief A block of points that asks to be drawn.
 struct PointClaim {
   std::size_t points = 0;

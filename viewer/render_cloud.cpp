@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/point_share.hpp"
 #include "viewer/setting_widgets.hpp"
 
 namespace geomap::viewer {
@@ -11,13 +12,12 @@ namespace {
 
 using geometry::RgbdFrame;
 
-constexpr std::size_t kBudgetShare = 5;  // it may take a fifth of the points that are drawn
 constexpr std::array<std::uint8_t, 3> kNoColor = {170, 176, 184};
 
 // Every how many-th pixel of a row, and every how many-th row, is taken.
 int stride_for(const RgbdFrame& frame, std::size_t budget) {
   const double pixels = static_cast<double>(frame.depth.width) * frame.depth.height;
-  const double most = static_cast<double>(budget / kBudgetShare);
+  const double most = static_cast<double>(budget / kCloudShare);
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / most))));
 }
 
@@ -48,7 +48,7 @@ std::vector<ScenePoint> points_of(const RgbdFrame& frame, int stride) {
 
 void RenderCloud::draw(const DrawContext& context) {
   const FrameLayer& layer = context.scene.frame;
-  if (context.point_budget < kBudgetShare || !layer.frame || layer.frame->depth.empty() ||
+  if (context.point_budget < kCloudShare || !layer.frame || layer.frame->depth.empty() ||
       !layer.T_world_camera || !layer.frame->depth_camera.valid()) {
     return;
   }

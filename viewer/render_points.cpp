@@ -29,9 +29,7 @@ std::vector<ScenePoint> relative_to(const Eigen::Vector3d& origin,
 // A block takes up less of the picture with the square of its distance. An orthographic view knows
 // no distance.
 double weight_of(const Eigen::AlignedBox3d& box, const ViewCamera& camera) {
-  const bool is_orthographic =
-      camera.viewpoint().projection == Projection::kOrthographic && !camera.is_first_person();
-  if (is_orthographic) return 1.0;
+  if (camera.is_orthographic()) return 1.0;
   constexpr double kNearest = 1.0, kFarthest = 1e6;  // [m]
   const double distance = std::clamp(box.exteriorDistance(camera.eye()), kNearest, kFarthest);
   if (!std::isfinite(distance)) return 1.0 / (kFarthest * kFarthest);
@@ -81,8 +79,8 @@ void RenderPoints::draw(const DrawContext& context) {
                    .setback = kSetback};
   if (is_by_height_) style.heights = PointStyle::Heights{.low = low_, .high = high_};
   if (hides_above_) style.hidden_above = hide_height_;
-  // A fifth of the budget is the live cloud's.
-  const auto counts = share_points(claims, context.point_budget - context.point_budget / 5);
+  const auto counts =
+      share_points(claims, context.point_budget - context.point_budget / kCloudShare);
   drawn_ = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     painter_->points(context, seen[i]->points, counts[i], seen[i]->T_world_block, style);

@@ -26,9 +26,8 @@ bool is_selected(const DrawContext& context, const FeatureId& id) {
 bool faces_eye(const DrawContext& context, const Eigen::Vector3d& middle,
                const Eigen::Vector3d& normal) {
   const ViewCamera& camera = context.camera;
-  const bool is_parallel =
-      camera.viewpoint().projection == Projection::kOrthographic && !camera.is_first_person();
-  const Eigen::Vector3d to_eye = is_parallel ? (-camera.forward()).eval() : camera.eye() - middle;
+  const Eigen::Vector3d to_eye =
+      camera.is_orthographic() ? (-camera.forward()).eval() : camera.eye() - middle;
   return to_eye.dot(normal) > 0.0;
 }
 

@@ -40,6 +40,8 @@ class ViewCamera {
   /// @brief A pose to look from (camera optical) in place of the viewpoint; nothing: the viewpoint.
   void look_from(const std::optional<Eigen::Isometry3d>& T_world_camera, double fov_y);
   bool is_first_person() const { return first_person_.has_value(); }
+  /// @brief Lines of sight are parallel: never so from a pose.
+  bool is_orthographic() const;
 
   /// @brief Mouse motions [px]: turns about the target; shifts so that what is at the target's
   /// distance stays under the mouse.
@@ -65,7 +67,6 @@ class ViewCamera {
   double fov_y() const { return fov_y_; }  // of the perspective view [rad]
 
  private:
-  bool is_orthographic() const;
   Eigen::Matrix3d axes() const;  // columns: right, up, back, world frame
 
   Viewpoint viewpoint_;
