@@ -31,10 +31,16 @@ function(geomap_library name)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE geomap_flags ${ARG_PRIVATE})
 endfunction()
 
+# What a user runs, without tests and benchmarks.
+add_custom_target(geomap_programs)
+
 # geomap_program(NAME SOURCES ... LINK ...): one executable in build/bin.
 function(geomap_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE geomap_flags ${ARG_LINK})
+  if(name MATCHES "^geomap-")
+    add_dependencies(geomap_programs ${name})
+  endif()
 endfunction()
