@@ -8,12 +8,12 @@
 namespace geomap::bench {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Set = CGAL::Polygon_set_2<Kernel>;
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Set = CGAL::Polygon_set_2<ExactKernel>;
 
-CGAL::Polygon_2<Kernel> converted(const geometry::Ring& ring) {
-  CGAL::Polygon_2<Kernel> result;
-  for (const geometry::GridPoint p : ring) result.push_back(Kernel::Point_2(p.x, p.y));
+CGAL::Polygon_2<ExactKernel> converted(const geometry::Ring& ring) {
+  CGAL::Polygon_2<ExactKernel> result;
+  for (const geometry::GridPoint p : ring) result.push_back(ExactKernel::Point_2(p.x, p.y));
   return result;
 }
 
@@ -22,7 +22,7 @@ Set converted(const geometry::Polygon& polygon) {
   for (const geometry::PolygonPart& part : polygon.parts) {
     Set whole(converted(part.outer));
     for (const geometry::Ring& hole : part.holes) {
-      CGAL::Polygon_2<Kernel> filled = converted(hole);
+      CGAL::Polygon_2<ExactKernel> filled = converted(hole);
       filled.reverse_orientation();
       whole.difference(filled);
     }

@@ -15,6 +15,10 @@ add_library(geomap_flags INTERFACE)
 # The same source must give the same bytes on every machine: no contraction into fused multiply-adds.
 target_compile_options(geomap_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion -Werror
                                               -ffp-contract=off)
+if(CMAKE_UNITY_BUILD)
+  # It takes what a .cpp file has in its anonymous namespace for a header's.
+  target_compile_options(geomap_flags INTERFACE -Wno-subobject-linkage)
+endif()
 if(GEOMAP_SANITIZE)
   add_compile_options(-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)

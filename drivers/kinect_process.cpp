@@ -16,7 +16,7 @@
 namespace geomap::drivers {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{50};  // between two looks at the bus
+constexpr std::chrono::milliseconds kLookInterval{50};  // between two looks at the bus
 // Firmware is loaded within; whoever supervises the process starts it again [s].
 constexpr double kLongestCall = 15.0;
 // Images that wait to be written are written first, which takes a busy machine a while [s].
@@ -72,7 +72,7 @@ void KinectProcess::step() {
         "anew",
         kLongestCall));
   }
-  if (auto event = camera_->take(kPatience)) {
+  if (auto event = camera_->take(kLookInterval)) {
     std::visit([this](auto&& happened) { take(std::forward<decltype(happened)>(happened)); },
                std::move(*event));
   }

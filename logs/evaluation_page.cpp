@@ -20,7 +20,6 @@ namespace geomap::logs {
 namespace {
 
 namespace fs = std::filesystem;
-using Groups = std::vector<const RunGroup*>;
 
 void add_heading(Document& page, const std::string& text) {
   page.blocks.push_back(Heading{2, text});
@@ -91,13 +90,13 @@ void add_planes(Document& page, std::span<const RunGroup> groups) {
 }
 
 void add_costs(Document& page, std::span<const RunGroup> groups) {
-  if (const Groups timed = first_groups_of(groups, {"turn360", "n0"}); !timed.empty()) {
+  if (const auto timed = first_groups_of(groups, {"turn360", "n0"}); !timed.empty()) {
     add_heading(page, "Table 4: time per key frame");
     add_text(page, fmt::format("Runs: {}. The paper's figures are from an i7 at 2.8 GHz.",
                                set_title(timed.front()->set)));
     add_table(page, time_table(timed));
   }
-  if (const Groups reduced = first_groups_of(groups, {"n0", "turn360"}); !reduced.empty()) {
+  if (const auto reduced = first_groups_of(groups, {"n0", "turn360"}); !reduced.empty()) {
     add_heading(page, "Table 5: data reduction");
     add_text(page,
              fmt::format("Runs: {}; shares are of the raw data.", set_title(reduced.front()->set)));
@@ -108,7 +107,7 @@ void add_costs(Document& page, std::span<const RunGroup> groups) {
 void add_figures(Document& page, std::span<const RunGroup> groups) {
   Gallery growth;
   for (const char* set : {"n0", "n02"}) {
-    const Groups of_set = groups_of(groups, set);
+    const auto of_set = groups_of(groups, set);
     if (of_set.empty()) continue;
     for (auto& picture : {growth_picture(of_set), reduction_picture(of_set)}) {
       if (picture) growth.pictures.push_back(*picture);

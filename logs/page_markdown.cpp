@@ -25,12 +25,12 @@ std::string cell_text(const Cell& cell) {
   return text;
 }
 
-std::string write(const Heading& heading, int deeper) {
+std::string markdown(const Heading& heading, int deeper) {
   const int level = heading.level + deeper;
   return std::string(static_cast<std::size_t>(level), '#') + " " + escape(heading.text) + "\n\n";
 }
 
-std::string write(const Table& table) {
+std::string markdown(const Table& table) {
   std::string text;
   if (!table.caption.empty()) text += escape(table.caption) + "\n\n";
   std::string rule;
@@ -52,7 +52,7 @@ std::string write(const Table& table) {
   return text + "\n";
 }
 
-std::string write(const Gallery& gallery) {
+std::string markdown(const Gallery& gallery) {
   std::string text;
   for (const Picture& picture : gallery.pictures) {
     text += fmt::format("![{}](pictures/{})\n\n{}\n\n", escape(picture.caption), picture.name,
@@ -64,14 +64,14 @@ std::string write(const Gallery& gallery) {
 }  // namespace
 
 std::string to_markdown(const Document& document) {
-  std::string text = write(Heading{1, document.title}, 0);
+  std::string text = markdown(Heading{1, document.title}, 0);
   for (const Block& block : document.blocks) {
-    if (const auto* heading = std::get_if<Heading>(&block)) text += write(*heading, 0);
+    if (const auto* heading = std::get_if<Heading>(&block)) text += markdown(*heading, 0);
     if (const auto* paragraph = std::get_if<Paragraph>(&block)) {
       text += escape(paragraph->text) + "\n\n";
     }
-    if (const auto* table = std::get_if<Table>(&block)) text += write(*table);
-    if (const auto* gallery = std::get_if<Gallery>(&block)) text += write(*gallery);
+    if (const auto* table = std::get_if<Table>(&block)) text += markdown(*table);
+    if (const auto* gallery = std::get_if<Gallery>(&block)) text += markdown(*gallery);
   }
   return text;
 }
@@ -82,9 +82,9 @@ std::string tables_markdown(const Document& document) {
   for (const Block& block : document.blocks) {
     if (const auto* next = std::get_if<Heading>(&block)) heading = next;
     if (const auto* table = std::get_if<Table>(&block)) {
-      if (heading) text += write(*heading, 1);
+      if (heading) text += markdown(*heading, 1);
       heading = nullptr;
-      text += write(*table);
+      text += markdown(*table);
     }
   }
   return text;

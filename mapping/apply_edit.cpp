@@ -19,7 +19,6 @@
 namespace geomap::mapping {
 namespace {
 
-constexpr double kLeastArea = 1e-4;  // of a piece [m²]
 constexpr const char* kOutOfReach = "it would reach farther than a map can hold";
 constexpr double kLargestMergeAngleDeg = 30.0;  // of what can be one plane at all
 
@@ -191,7 +190,7 @@ class Application {
     second.surface.polygon = geometry::subtract(polygon, half);
     const double smaller =
         std::min(geometry::area(first.surface.polygon), geometry::area(second.surface.polygon));
-    if (smaller < kLeastArea) return "the line does not cross the surface";
+    if (smaller < kLeastDrawnArea) return "the line does not cross the surface";
     second.id = made_by(edit_, 0);
     second.observations = {second.id};
     close_to_observations(feature, VetoCause::kObserved);
@@ -205,11 +204,11 @@ class Application {
     const geometry::Polygon drawn = drawn_in_frame(world_points(), feature.surface.frame);
     MapFeature piece = feature, rest = feature;
     piece.surface.polygon = geometry::intersect(feature.surface.polygon, drawn);
-    if (geometry::area(piece.surface.polygon) < kLeastArea) {
+    if (geometry::area(piece.surface.polygon) < kLeastDrawnArea) {
       return "the polygon does not meet the surface";
     }
     rest.surface.polygon = geometry::subtract(feature.surface.polygon, drawn);
-    if (geometry::area(rest.surface.polygon) < kLeastArea) {
+    if (geometry::area(rest.surface.polygon) < kLeastDrawnArea) {
       return "nothing would be left: delete it instead";
     }
     close_to_observations(piece, VetoCause::kDeleted);

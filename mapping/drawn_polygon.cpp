@@ -12,7 +12,6 @@ namespace geomap::mapping {
 namespace {
 
 constexpr double kOffPlane = 0.05;         // of a corner [m]
-constexpr double kLeastArea = 1e-4;        // [m²]
 constexpr double kFarthestDrawn = 1000.0;  // from the polygon's centre [m]
 
 // Newell: the normal that the sum of the corners' cross products gives.
@@ -79,7 +78,7 @@ std::optional<MapFeature> drawn_feature(const FeatureId& id,
   for (const Eigen::Vector3d& corner : corners) center += corner;
   center /= static_cast<double>(corners.size());
   const Eigen::Vector3d area = area_vector(corners, center);
-  if (area.norm() < kLeastArea) return std::nullopt;
+  if (area.norm() < kLeastDrawnArea) return std::nullopt;
 
   MapFeature feature;
   feature.id = id;

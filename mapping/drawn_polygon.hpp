@@ -10,10 +10,13 @@
 
 namespace geomap::mapping {
 
+/// @brief Nothing smaller is drawn by hand or cut off [m²].
+constexpr double kLeastDrawnArea = 1e-4;
+
 /// @brief A polygon that was drawn by hand as a feature, whose evidence weighs as one close view.
 /// @param corners world frame [m], counter-clockwise as seen from where the surface is visible
 /// @return nothing when the corners lie farther than 5 cm off a plane, the polygon crosses itself
-/// or it has less than a square centimetre.
+/// or it has less than `kLeastDrawnArea`.
 std::optional<MapFeature> drawn_feature(const FeatureId& id,
                                         std::span<const Eigen::Vector3d> corners,
                                         const MergeConfig& config);

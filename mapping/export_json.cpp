@@ -10,11 +10,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+Json point_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json ring_json(const geometry::PlanarPolygon& surface, const geometry::Ring& ring) {
   Json points = Json::array();
-  for (const geometry::GridPoint vertex : ring) points.push_back(to_json(surface.lift(vertex)));
+  for (const geometry::GridPoint vertex : ring) points.push_back(point_json(surface.lift(vertex)));
   return points;
 }
 
@@ -33,7 +33,7 @@ Json feature_json(const MapFeature& feature) {
   const bool observed = !feature.observations.empty();
   return {{"id", to_string(feature.id)},
           {"label", clean_text(feature.label)},
-          {"normal", to_json(surface.plane.normal)},
+          {"normal", point_json(surface.plane.normal)},
           {"d", surface.plane.d},
           {"area", geometry::area(surface.polygon)},
           {"observations", feature.observations.size()},

@@ -12,7 +12,6 @@
 namespace geomap::perception {
 namespace {
 
-constexpr int kSide = DepthCells::kSide;
 constexpr double kBorderSpacing = 0.015;  // of border points, where pixels are closer [m]
 constexpr double kInnerSpacing = 0.55;    // of points inside, over alpha
 constexpr double kHullPixels = 6.0;       // least alpha: this many pixel lengths
@@ -71,7 +70,7 @@ class Sampler {
 
   // A whole cell whose every neighbouring pixel is the plane's has no border.
   bool is_inner(const Eigen::AlignedBox2i& box) const {
-    if (box.sizes() != Eigen::Vector2i(kSide - 1, kSide - 1)) return false;
+    if (box.sizes() != Eigen::Vector2i(DepthCells::kSide - 1, DepthCells::kSide - 1)) return false;
     for (int v = box.min().y() - 1; v <= box.max().y() + 1; ++v) {
       for (int u = box.min().x() - 1; u <= box.max().x() + 1; ++u) {
         if (!is_own(u, v)) return false;
@@ -82,7 +81,7 @@ class Sampler {
 
   // Points on the outer edges of pixels beside something wider than a gap that alpha closes anyway.
   void sample_border(const Eigen::AlignedBox2i& box, double length) {
-    const int along = std::clamp(static_cast<int>(kBorderSpacing / length), 1, kSide);
+    const int along = std::clamp(static_cast<int>(kBorderSpacing / length), 1, DepthCells::kSide);
     const int across = std::clamp(static_cast<int>(0.5 * alpha_ / length), 2, kWidestGap);
     for (int v = box.min().y(); v <= box.max().y(); ++v) {
       for (int u = box.min().x(); u <= box.max().x(); ++u) {

@@ -16,7 +16,7 @@ using Message = geomap::map_edit_record_t;
 using mapping::clean_text;
 using namespace std::chrono_literals;
 
-constexpr auto kSilence = 10s;  // of a mapper, after which an older epoch is believed
+constexpr auto kMapperSilence = 10s;  // of a mapper, after which an older epoch is believed
 constexpr std::size_t kMostRecords = 100'000;
 
 HistoryEntry::State state_of(std::int8_t state) {
@@ -83,7 +83,7 @@ std::optional<EditRecords::Record> EditRecords::read(const Message& message) {
 }
 
 Taken EditRecords::take(const Message& message, Clock::time_point now) {
-  const bool is_former = shown_ && message.epoch < shown_->epoch && now - heard_ < kSilence;
+  const bool is_former = shown_ && message.epoch < shown_->epoch && now - heard_ < kMapperSilence;
   if (!is_plausible(message) || is_former) return Taken::kRefused;
   auto record = read(message);
   if (!record) return Taken::kRefused;

@@ -11,10 +11,10 @@
 namespace geomap::viewer {
 namespace {
 
-constexpr double kArrowPixels = 90.0, kRingPixels = 64.0, kReachPixels = 9.0, kArrowsFirst = 4.0;
+constexpr double kArrowPixels = 90.0, kRingPixels = 64.0, kGripPixels = 9.0, kArrowsFirst = 4.0;
 constexpr int kRingPieces = 48;
 constexpr double kFarthest = 10'000.0;  // of a motion [m] or [rad]
-constexpr double kEdgeOn = 0.1;         // a ring seen so flat cannot be turned by
+constexpr double kRingEdgeOn = 0.1;     // a ring seen so flat cannot be turned by
 
 }  // namespace
 
@@ -94,7 +94,7 @@ std::vector<Eigen::Vector3d> MoveTool::shape_of(const ViewCamera& camera,
 std::optional<MoveTool::Handle> MoveTool::handle_at(const ViewCamera& camera,
                                                     const Eigen::Vector2d& pixel) const {
   std::optional<Handle> nearest;
-  double best = kReachPixels;
+  double best = kGripPixels;
   for (const bool is_ring : {false, true}) {
     for (int axis = 0; axis < 3; ++axis) {
       const Handle handle{is_ring, axis};
@@ -122,7 +122,7 @@ std::optional<double> MoveTool::value_at(const ViewCamera& camera, const Eigen::
   const Ray ray = camera.ray(pixel);
   const Eigen::Vector3d axis = axes_.col(handle.axis);
   if (handle.is_ring) {
-    if (std::abs(axis.dot(ray.direction)) < kEdgeOn) return std::nullopt;
+    if (std::abs(axis.dot(ray.direction)) < kRingEdgeOn) return std::nullopt;
     const auto distance = distance_to_plane(ray, geometry::Plane::through(held_center_, axis));
     if (!distance) return std::nullopt;
     const Eigen::Vector3d arm = ray.at(*distance) - held_center_;

@@ -8,7 +8,7 @@ namespace geomap::viewer {
 namespace {
 
 constexpr double kParallel = 0.0087;  // sine of the angle between ray and plane: 0.5°
-constexpr double kEdgeOn = 0.12;      // the same, below which a polygon is no more than a line
+constexpr double kLineOn = 0.12;      // the same, below which a polygon is no more than a line
 constexpr double kReachPixels = 5.0;
 
 std::optional<double> distance_to_polygon(const Ray& ray, const geometry::PlanarPolygon& polygon) {
@@ -55,7 +55,7 @@ std::optional<Hit> pick_feature(const SurfaceCache& cache, const ViewCamera& cam
   std::optional<Hit> nearest;
   for (const auto& [id, surface] : cache.surfaces()) {
     const geometry::PlanarPolygon& polygon = surface.polygon;
-    const bool is_line = std::abs(polygon.plane.normal.dot(ray.direction)) < kEdgeOn;
+    const bool is_line = std::abs(polygon.plane.normal.dot(ray.direction)) < kLineOn;
     auto distance = distance_to_polygon(ray, polygon);
     if (!distance && is_line) distance = distance_to_outline(camera, ray, pixel, polygon);
     if (distance && (!nearest || *distance < nearest->distance)) {

@@ -20,8 +20,8 @@ constexpr auto kLongestBurst = 60s;      // after which it is anyway
 constexpr std::int64_t kReordering = 8;  // updates that one may overtake
 constexpr std::size_t kMostAbsent = 1000, kMostBlocks = 2'000'000;  // numbers that are remembered
 constexpr std::int64_t kLastNumber = std::int64_t{1} << 60;
-constexpr std::int64_t kLongestGap = 1'000'000;  // a longer one is another sender, not a loss
-constexpr std::size_t kMostPoints = 50'000'000;  // of the layer
+constexpr std::int64_t kLongestLoss = 1'000'000;  // a longer one is another sender, not a loss
+constexpr std::size_t kMostPoints = 50'000'000;   // of the layer
 
 // Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014.
 std::uint64_t mixed(std::uint64_t n) {
@@ -98,7 +98,7 @@ bool PointUpdates::follow(const geomap::point_map_update_t& message) {
   const bool is_anew = is_repeated && message.session == 0 && message.complete != 0;
   const bool is_same_sender = sequence_ && !is_anew &&
                               (message.session == session_ || session_ == 0) &&
-                              (was_absent || (ahead > -kReordering && ahead < kLongestGap));
+                              (was_absent || (ahead > -kReordering && ahead < kLongestLoss));
   if (!is_same_sender) {
     note_loss();
     writers_.clear();

@@ -7,12 +7,12 @@
 namespace geomap::drivers {
 namespace {
 
-constexpr int kWidth = 320;
+constexpr int kColumns = 320;
 constexpr double kFocalTimesBaseline = 40.0;  // [pixel m]
 
 using Row = std::vector<double>;
 
-Row wall(double z) { return Row(kWidth, z); }
+Row wall_row(double z) { return Row(kColumns, z); }
 
 Row with_box(Row row, int first, int last, double z) {
   std::fill(row.begin() + first, row.begin() + last + 1, z);
@@ -21,7 +21,7 @@ Row with_box(Row row, int first, int last, double z) {
 
 std::vector<std::uint8_t> shadows(const Row& depth) {
   std::vector<std::uint8_t> shadowed(depth.size());
-  ProjectorShadow(kWidth, kFocalTimesBaseline).find(depth, shadowed);
+  ProjectorShadow(kColumns, kFocalTimesBaseline).find(depth, shadowed);
   return shadowed;
 }
 
@@ -39,7 +39,7 @@ int count(const std::vector<std::uint8_t>& shadowed) {
 TEST(ProjectorShadow, LiesAtTheLeftOfABoxAndIsAsWideAsTheDisparitiesDiffer) {
   for (const double near : {0.8, 1.0, 1.37, 1.9}) {
     const double width = kFocalTimesBaseline * (1.0 / near - 1.0 / 2.5);
-    const auto shadowed = shadows(with_box(wall(2.5), 150, 250, near));
+    const auto shadowed = shadows(with_box(wall_row(2.5), 150, 250, near));
     EXPECT_NEAR(count(shadowed), width, 1.0) << near;
     EXPECT_EQ(extent(shadowed), std::pair(150 - count(shadowed), 149)) << near;
   }
@@ -47,23 +47,23 @@ TEST(ProjectorShadow, LiesAtTheLeftOfABoxAndIsAsWideAsTheDisparitiesDiffer) {
 
 TEST(ProjectorShadow, BehindAThinPoleThereIsLightOnBothSides) {
   // 40 pixels of disparity against 16: the shadow is as wide as the pole, 24 pixels to its left.
-  const auto shadowed = shadows(with_box(wall(2.5), 200, 204, 1.0));
+  const auto shadowed = shadows(with_box(wall_row(2.5), 200, 204, 1.0));
   EXPECT_EQ(extent(shadowed), std::pair(176, 180));
   EXPECT_EQ(count(shadowed), 5);
 }
 
 TEST(ProjectorShadow, ASmoothSurfaceHasNone) {
-  Row depth(kWidth);
+  Row depth(kColumns);
   for (const double slope : {-0.008, -0.002, 0.0, 0.002, 0.008}) {
     for (std::size_t u = 0; u < depth.size(); ++u) {
-      depth[u] = 2.0 + slope * (static_cast<double>(u) - kWidth / 2);
+      depth[u] = 2.0 + slope * (static_cast<double>(u) - kColumns / 2);
     }
     EXPECT_EQ(count(shadows(depth)), 0) << slope;
   }
 }
 
 TEST(ProjectorShadow, ASlantedBoxLetsNoLightThrough) {
-  Row depth = wall(4.0);  // disparity 10
+  Row depth = wall_row(4.0);  // disparity 10
   // The box's disparity falls from 50 to 30: the projector sees it 1.2 times as wide.
   for (int u = 200; u <= 300; ++u) {
     depth[static_cast<std::size_t>(u)] = kFocalTimesBaseline / (50.0 - 0.2 * (u - 200));
@@ -73,14 +73,14 @@ TEST(ProjectorShadow, ASlantedBoxLetsNoLightThrough) {
 }
 
 TEST(ProjectorShadow, WithoutABaselineOrADepthThereIsNone) {
-  std::vector<std::uint8_t> shadowed(kWidth, 1);
-  ProjectorShadow(kWidth, 0.0).find(with_box(wall(2.0), 100, 200, 0.5), shadowed);
+  std::vector<std::uint8_t> shadowed(kColumns, 1);
+  ProjectorShadow(kColumns, 0.0).find(with_box(wall_row(2.0), 100, 200, 0.5), shadowed);
   EXPECT_EQ(count(shadowed), 0);
-  EXPECT_EQ(count(shadows(wall(0.0))), 0);
+  EXPECT_EQ(count(shadows(wall_row(0.0))), 0);
 }
 
 TEST(ProjectorShadow, WhatIsTooNearForTheProjectorIsLeftAlone) {
-  EXPECT_EQ(count(shadows(with_box(wall(2.0), 0, 100, 1e-9))), 0);
+  EXPECT_EQ(count(shadows(with_box(wall_row(2.0), 0, 100, 1e-9))), 0);
 }
 
 }  // namespace

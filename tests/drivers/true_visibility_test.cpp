@@ -18,7 +18,7 @@ SceneFace face_at(const Eigen::Vector3d& corner, const Eigen::Vector3d& u,
 
 // A wall at x = 3 that faces the origin, 4 m wide and high, and a camera at the origin that looks
 // at its middle.
-Scene wall() {
+Scene wall_ahead() {
   Scene scene;
   scene.add_face("wall", {}, face_at({3.0, 2.0, -2.0}, {0.0, -4.0, 0.0}, {0.0, 0.0, 4.0}));
   return scene;
@@ -35,7 +35,7 @@ Truth truth_of(const Scene& scene, const std::vector<Eigen::Isometry3d>& poses,
 }
 
 TEST(TrueVisibility, OfAWallIsSeenWhatIsInTheImage) {
-  const Truth truth = truth_of(wall(), {kAhead});
+  const Truth truth = truth_of(wall_ahead(), {kAhead});
   const TruthPlane& plane = truth.planes.at(0);
   EXPECT_EQ(plane.name, "wall");
   EXPECT_NEAR((plane.plane.normal - Eigen::Vector3d(-1, 0, 0)).norm(), 0.0, 1e-12);
@@ -49,9 +49,9 @@ TEST(TrueVisibility, OfAWallIsSeenWhatIsInTheImage) {
 }
 
 TEST(TrueVisibility, WhatStandsInBetweenHidesItsShadow) {
-  Scene scene = wall();  // a board of 0.4 m x 0.3 m half way hides twice its size
+  Scene scene = wall_ahead();  // a board of 0.4 m x 0.3 m half way hides twice its size
   scene.add_face("board", {}, face_at({1.5, 0.2, -0.15}, {0.0, -0.4, 0.0}, {0.0, 0.0, 0.3}));
-  const double open = truth_of(wall(), {kAhead}).planes[0].visible_area;
+  const double open = truth_of(wall_ahead(), {kAhead}).planes[0].visible_area;
   const Truth truth = truth_of(scene, {kAhead});
   EXPECT_NEAR(open - truth.planes[0].visible_area, 0.8 * 0.6, 0.03);
   ASSERT_EQ(truth.planes[0].visible.size(), 1U);
@@ -60,7 +60,7 @@ TEST(TrueVisibility, WhatStandsInBetweenHidesItsShadow) {
 }
 
 TEST(TrueVisibility, BehindAndOutOfRangeNothingIsSeen) {
-  Scene scene = wall();
+  Scene scene = wall_ahead();
   EXPECT_FALSE(truth_of(scene, {testing::look_at({6, 0, 0}, {3, 0, 0})}).planes[0].seen);
   VisibilityConfig config;
   config.max_range = 2.9;
@@ -91,9 +91,10 @@ TEST(TrueVisibility, TheBackOfAFaceWithTwoSidesIsAPlaneOfItsOwn) {
 TEST(TrueVisibility, SmallMovesAddNothing) {
   const Eigen::Isometry3d a_little = testing::look_at({0, 0.05, 0}, {3, 0.05, 0});
   const Eigen::Isometry3d farther = testing::look_at({0, 0.3, 0}, {3, 0.3, 0});
-  const double once = truth_of(wall(), {kAhead}).planes[0].visible_area;
-  EXPECT_EQ(truth_of(wall(), {kAhead, a_little}).planes[0].visible_area, once);
-  EXPECT_NEAR(truth_of(wall(), {kAhead, farther}).planes[0].visible_area - once, 0.3 * 2.36, 0.03);
+  const double once = truth_of(wall_ahead(), {kAhead}).planes[0].visible_area;
+  EXPECT_EQ(truth_of(wall_ahead(), {kAhead, a_little}).planes[0].visible_area, once);
+  EXPECT_NEAR(truth_of(wall_ahead(), {kAhead, farther}).planes[0].visible_area - once, 0.3 * 2.36,
+              0.03);
 }
 
 }  // namespace

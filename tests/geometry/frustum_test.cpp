@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::RandomShapes;
 
-const CameraModel kCamera{640, 480, 585.0, 585.0, 310.0, 250.0};
+const CameraModel kOffCentreCamera{640, 480, 585.0, 585.0, 310.0, 250.0};
 constexpr double kNear = 0.5, kFar = 4.0;
 
 // Somewhere, turned, a kilometre from the origin.
@@ -28,12 +28,12 @@ Vector3d any_point(RandomShapes& random) {
 
 TEST(Frustum, ContainsWhatProjectsIntoTheImageBetweenNearAndFar) {
   for (const Eigen::Isometry3d& T_world_camera : {Eigen::Isometry3d::Identity(), far_pose()}) {
-    const Frustum frustum(kCamera, kNear, kFar, T_world_camera);
+    const Frustum frustum(kOffCentreCamera, kNear, kFar, T_world_camera);
     RandomShapes random(1);
     int inside = 0;
     for (int i = 0; i < 20000; ++i) {
       const Vector3d p = any_point(random);
-      const Eigen::Vector2d pixel = kCamera.project(p);
+      const Eigen::Vector2d pixel = kOffCentreCamera.project(p);
       const bool expected = p.z() >= kNear && p.z() <= kFar && pixel.x() >= -0.5 &&
                             pixel.x() <= 639.5 && pixel.y() >= -0.5 && pixel.y() <= 479.5;
       EXPECT_EQ(frustum.contains(T_world_camera * p), expected) << p.transpose();
@@ -45,7 +45,7 @@ TEST(Frustum, ContainsWhatProjectsIntoTheImageBetweenNearAndFar) {
 
 TEST(Frustum, NeverMissesABoxThatHoldsAVisiblePoint) {
   const Eigen::Isometry3d T_world_camera = far_pose();
-  const Frustum frustum(kCamera, kNear, kFar, T_world_camera);
+  const Frustum frustum(kOffCentreCamera, kNear, kFar, T_world_camera);
   RandomShapes random(2);
   int visible = 0, refused = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -66,7 +66,7 @@ TEST(Frustum, NeverMissesABoxThatHoldsAVisiblePoint) {
 }
 
 TEST(Frustum, RefusesBoxesBehindBesideAndBeyond) {
-  const Frustum frustum(kCamera, kNear, kFar, Eigen::Isometry3d::Identity());
+  const Frustum frustum(kOffCentreCamera, kNear, kFar, Eigen::Isometry3d::Identity());
   const auto box = [](double x, double y, double z) {
     return Eigen::AlignedBox3d(Vector3d(x, y, z), Vector3d(x + 0.1, y + 0.1, z + 0.1));
   };
@@ -80,7 +80,7 @@ TEST(Frustum, RefusesBoxesBehindBesideAndBeyond) {
 }
 
 TEST(Frustum, CornersLieOnThreePlanesEachInImageOrder) {
-  const Frustum frustum(kCamera, kNear, kFar, far_pose());
+  const Frustum frustum(kOffCentreCamera, kNear, kFar, far_pose());
   const Eigen::Isometry3d T_camera_world = far_pose().inverse();
   for (std::size_t i = 0; i < 8; ++i) {
     int touched = 0;
@@ -98,8 +98,8 @@ TEST(Frustum, CornersLieOnThreePlanesEachInImageOrder) {
 TEST(Frustum, RefusesInvalidCamerasAndDepths) {
   const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
   EXPECT_THROW(Frustum(CameraModel{}, kNear, kFar, identity), std::invalid_argument);
-  EXPECT_THROW(Frustum(kCamera, 0.0, kFar, identity), std::invalid_argument);
-  EXPECT_THROW(Frustum(kCamera, 2.0, 1.0, identity), std::invalid_argument);
+  EXPECT_THROW(Frustum(kOffCentreCamera, 0.0, kFar, identity), std::invalid_argument);
+  EXPECT_THROW(Frustum(kOffCentreCamera, 2.0, 1.0, identity), std::invalid_argument);
 }
 
 }  // namespace

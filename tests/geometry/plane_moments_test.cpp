@@ -16,8 +16,9 @@ namespace {
 using Eigen::Vector3d;
 using testing::RandomShapes;
 
-constexpr double kSigma = 0.02;                                 // white noise on depth [m]
-const CameraModel kCamera{160, 120, 146.0, 146.0, 79.5, 59.5};  // a Kinect's, every fourth pixel
+constexpr double kSigma = 0.02;  // white noise on depth [m]
+const CameraModel kCoarseCamera{160,   120,  146.0,
+                                146.0, 79.5, 59.5};  // a Kinect's, every fourth pixel
 
 // A rectangle about `center`, turned by `tilt` [rad] about the camera's x axis.
 struct Patch {
@@ -33,9 +34,9 @@ PlaneMoments observe(const Patch& patch, double sigma, double claimed, RandomSha
   const Plane plane = patch.plane();
   const Vector3d up = plane.normal.cross(Vector3d::UnitX());
   PlaneMoments moments;
-  for (int v = 0; v < kCamera.height; ++v) {
-    for (int u = 0; u < kCamera.width; ++u) {
-      const Vector3d ray = kCamera.ray(u, v);
+  for (int v = 0; v < kCoarseCamera.height; ++v) {
+    for (int u = 0; u < kCoarseCamera.width; ++u) {
+      const Vector3d ray = kCoarseCamera.ray(u, v);
       const double z = -plane.d / plane.normal.dot(ray);
       const Vector3d from_center = z * ray - patch.center;
       if (std::abs(from_center.x()) > patch.half_width ||

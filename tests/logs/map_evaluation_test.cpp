@@ -23,7 +23,7 @@ constexpr double kExact = 1e-9;
 constexpr double kGrid = 2e-4;  // areas of rectangles on the 0.1 mm grid
 
 const PlaneFrame kTable = {{3, 0, 1}, Vector3d::UnitX(), Vector3d::UnitZ()};
-const PlaneFrame kWall = {{0, 4, 1}, Vector3d::UnitX(), -Vector3d::UnitY()};
+const PlaneFrame kWallFrame = {{0, 4, 1}, Vector3d::UnitX(), -Vector3d::UnitY()};
 const PlaneFrame kRamp = {
     {-2, -1, 0.5}, Vector3d(0.6, 0.8, 0), Vector3d(-0.8, 0.6, 1).normalized()};
 constexpr DrawnRectangle kWhole = {-1, -0.5, 1, 0.5};  // 2 m²
@@ -32,12 +32,12 @@ Truth table() { return {{draw_truth("table", kTable, kWhole, {kWhole})}}; }
 
 Truth room() {
   return {{draw_truth("table", kTable, kWhole, {kWhole}),
-           draw_truth("wall", kWall, {-3, -1, 3, 1}, {{-2, -1, 2, 1}}),
+           draw_truth("wall", kWallFrame, {-3, -1, 3, 1}, {{-2, -1, 2, 1}}),
            draw_truth("ramp", kRamp, kWhole, {kWhole})}};
 }
 
 std::vector<MapFeature> map_of_room() {
-  return {draw_feature(1, kTable, {kWhole}), draw_feature(2, kWall, {{-2, -1, 2, 1}}),
+  return {draw_feature(1, kTable, {kWhole}), draw_feature(2, kWallFrame, {{-2, -1, 2, 1}}),
           draw_feature(3, kRamp, {kWhole})};
 }
 
@@ -204,8 +204,8 @@ TEST(MapEvaluation, OfTwoSurfacesTheNearerOneIsMeant) {
 
 TEST(MapEvaluation, OpeningsBelongToTheOutline) {
   const DrawnRectangle door = {-0.5, -0.25, 0.5, 0.25};  // 0.5 of 2 m²
-  const Truth wall = {{draw_truth("wall", kWall, kWhole, {kWhole}, {door})}};
-  MapFeature feature = draw_feature(1, kWall, {kWhole});
+  const Truth wall = {{draw_truth("wall", kWallFrame, kWhole, {kWhole}, {door})}};
+  MapFeature feature = draw_feature(1, kWallFrame, {kWhole});
   const MapEvaluation closed = evaluate({feature}, wall);
   EXPECT_NEAR(*closed.area_iou, 0.75, kGrid);
   EXPECT_NEAR(*closed.planes[0].visible_area, 1.5, 1e-3);
@@ -234,7 +234,7 @@ TEST(MapEvaluation, VisiblePartsWithinTheGapAreOneComponent) {
 TEST(MapEvaluation, PartsTooSmallToBeMappedAreNotAskedFor) {
   const Truth truth = {
       {draw_truth("table", kTable, kWhole, {{-1, -0.5, 0, 0.5}, {0.5, 0, 0.6, 0.19}}),
-       draw_truth("wall", kWall, kWhole, {{0, 0, 0.1, 0.19}})}};
+       draw_truth("wall", kWallFrame, kWhole, {{0, 0, 0.1, 0.19}})}};
   const MapEvaluation result = evaluate({draw_feature(1, kTable, {{-1, -0.5, 0, 0.5}})}, truth);
   EXPECT_EQ(result.planes[0].components, 1U);
   EXPECT_EQ(result.planes[1].components, 0U);
@@ -243,8 +243,8 @@ TEST(MapEvaluation, PartsTooSmallToBeMappedAreNotAskedFor) {
 }
 
 TEST(MapEvaluation, TinyFeaturesAreIgnored) {
-  const MapEvaluation result = evaluate(
-      {draw_feature(1, kTable, {{0, 0, 0.1, 0.19}}), draw_feature(2, kWall, {{0, 0, 0.1, 0.19}})});
+  const MapEvaluation result = evaluate({draw_feature(1, kTable, {{0, 0, 0.1, 0.19}}),
+                                         draw_feature(2, kWallFrame, {{0, 0, 0.1, 0.19}})});
   EXPECT_EQ(result.features_counted, 0U);
   EXPECT_EQ(result.recall, 0.0);
   EXPECT_FALSE(result.precision);
@@ -292,7 +292,8 @@ TEST(MapEvaluation, AReferenceWithoutOutlineIsFoundAtItsCentroid) {
   EXPECT_EQ(recall(tilted(kTable, 0.44), kWhole), 0.0);
 
   const MapEvaluation result = evaluate(
-      {draw_feature(1, raised(kTable, 0.01), {kWhole}), draw_feature(2, kWall, {kWhole})}, truth);
+      {draw_feature(1, raised(kTable, 0.01), {kWhole}), draw_feature(2, kWallFrame, {kWhole})},
+      truth);
   EXPECT_NEAR(result.errors->dist_local, 0.01, kExact);
   EXPECT_NEAR(result.planes[0].map_area, 2.0, kExact);
   EXPECT_FALSE(result.precision || result.false_features || result.area_iou);
@@ -303,7 +304,7 @@ TEST(MapEvaluation, AReferenceWithoutOutlineIsFoundAtItsCentroid) {
 TEST(MapEvaluation, TwoMapsAreComparedTheSameWay) {
   const std::vector<MapFeature> other = {
       draw_feature(5, kTable, {{-1, -0.5, 0, 0.5}, {0.2, -0.5, 1, 0.5}}),
-      draw_feature(4, kRamp, {kWhole}), draw_feature(6, kWall, {{0, 0, 0.1, 0.1}})};
+      draw_feature(4, kRamp, {kWhole}), draw_feature(6, kWallFrame, {{0, 0, 0.1, 0.1}})};
   const std::vector<MapFeature> map = {draw_feature(1, raised(kTable, 0.02), {kWhole})};
   const MapEvaluation result = evaluate_map(map, reference_surfaces(other));
   EXPECT_EQ(result.recall, 0.5);  // the third is too small to count

@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 using testing::Observer;
 using testing::Rectangle;
 
-const Vector3d kX = Vector3d::UnitX(), kY = Vector3d::UnitY(), kZ = Vector3d::UnitZ();
+using testing::kX, testing::kY, testing::kZ;
 
 Rectangle table(double x = 0.0, double half_u = 0.5) {
   return {"table", {x, 0, 0.75}, kX, kY, half_u, 0.4, {160, 60, 40}, {}};
@@ -34,7 +34,7 @@ Isometry3d camera_at(std::int64_t keyframe) {
   return testing::look_at({x, -1.5, 1.8}, {0, 0, 0.75});
 }
 
-std::string hash_of(const GeometricMap& map) { return map_hash(map.features(), map.vetoes()); }
+using testing::hash_of;
 
 /// A map of noisy views, with what an operator does to it.
 class EditTest : public ::testing::Test {

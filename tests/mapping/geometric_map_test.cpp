@@ -18,9 +18,9 @@ using testing::Observer;
 using testing::Rectangle;
 using ObservationPtr = std::shared_ptr<const Observation>;
 
-const Vector3d kX = Vector3d::UnitX(), kY = Vector3d::UnitY(), kZ = Vector3d::UnitZ();
+using testing::kX, testing::kY, testing::kZ;
 
-Rectangle table(double x = 0.0, double y = 0.0) {
+Rectangle table_at(double x = 0.0, double y = 0.0) {
   return {"table", {x, y, 0.75}, kX, kY, 0.5, 0.4, {160, 60, 40}, {}};
 }
 
@@ -51,7 +51,7 @@ std::vector<ObservationPtr> noisy_views(int count, std::uint32_t seed = 5) {
   return views;
 }
 
-std::string hash_of(const GeometricMap& map) { return map_hash(map.features()); }
+using testing::hash_of;
 
 std::string folded_hash(const std::vector<ObservationPtr>& views,
                         const HistoryConfig& history = {}) {
@@ -67,7 +67,7 @@ TEST(GeometricMap, OneRectangleSeenAThousandTimesKeepsItsAreaAndOutline) {
   observer.offset_noise = 0.005;
   observer.outline_noise = 0.002;
   for (int i = 0; i < 1000; ++i) {
-    map.apply(observer.observe(i + 1, {table()}, camera_above(0.001 * i - 0.5)));
+    map.apply(observer.observe(i + 1, {table_at()}, camera_above(0.001 * i - 0.5)));
   }
   ASSERT_EQ(map.features().size(), 1u);
   const MapFeature& feature = *map.features().begin()->second;
@@ -93,15 +93,15 @@ TEST(GeometricMap, TheTwoSidesOfAThinDoorStayTwoPlanes) {
 TEST(GeometricMap, CoplanarPartsMergeOnlyWithinTheGap) {
   Observer observer;
   GeometricMap apart = empty_map(), touching = empty_map();
-  apart.apply(observer.observe(1, {table(0.0), table(1.05)}, camera_above()));
-  touching.apply(observer.observe(1, {table(0.0), table(1.02)}, camera_above()));
+  apart.apply(observer.observe(1, {table_at(0.0), table_at(1.05)}, camera_above()));
+  touching.apply(observer.observe(1, {table_at(0.0), table_at(1.02)}, camera_above()));
   EXPECT_EQ(apart.features().size(), 2u);
   EXPECT_EQ(touching.features().size(), 1u);
 }
 
 TEST(GeometricMap, ParallelShelvesAHandApartStayTwo) {
   Observer observer;
-  Rectangle lower = table(), upper = table();
+  Rectangle lower = table_at(), upper = table_at();
   upper.center.z() += 0.1;
   GeometricMap map = empty_map();
   map.apply(observer.observe(1, {lower, upper}, camera_above()));
@@ -111,10 +111,10 @@ TEST(GeometricMap, ParallelShelvesAHandApartStayTwo) {
 TEST(GeometricMap, ANewPolygonBridgesTwoOldOnesAndTheOldestIdStays) {
   Observer observer;
   GeometricMap map = empty_map();
-  map.apply(observer.observe(10, {table(-1.2)}, camera_above()));
-  map.apply(observer.observe(20, {table(1.2)}, camera_above()));
+  map.apply(observer.observe(10, {table_at(-1.2)}, camera_above()));
+  map.apply(observer.observe(20, {table_at(1.2)}, camera_above()));
   ASSERT_EQ(map.features().size(), 2u);
-  Rectangle wide = table();
+  Rectangle wide = table_at();
   wide.half_u = 1.0;
   const ApplyResult result = map.apply(observer.observe(30, {wide}, camera_above()));
   ASSERT_EQ(map.features().size(), 1u);
@@ -127,7 +127,7 @@ TEST(GeometricMap, ANewPolygonBridgesTwoOldOnesAndTheOldestIdStays) {
 
 TEST(GeometricMap, ColourIsAveragedAndNeverAReasonToRefuse) {
   Observer observer;
-  Rectangle red = table(), blue = table();
+  Rectangle red = table_at(), blue = table_at();
   red.color = {255, 0, 0};
   blue.color = {0, 0, 255};
   GeometricMap map = empty_map();
@@ -142,7 +142,7 @@ TEST(GeometricMap, ColourIsAveragedAndNeverAReasonToRefuse) {
 TEST(GeometricMap, AViewAlongTheSurfaceIsNotFused) {
   Observer observer;
   GeometricMap map = empty_map();
-  map.apply(observer.observe(1, {table()}, testing::look_at({0, -3, 0.9}, {0, 0, 0.75})));
+  map.apply(observer.observe(1, {table_at()}, testing::look_at({0, -3, 0.9}, {0, 0, 0.75})));
   EXPECT_TRUE(map.features().empty());
 }
 

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using testing::Observer;
 using testing::Rectangle;
 
-const Vector3d kX = Vector3d::UnitX(), kY = Vector3d::UnitY(), kZ = Vector3d::UnitZ();
+using testing::kX, testing::kY, testing::kZ;
 
 const Eigen::Isometry3d kCamera = testing::look_at({0.0, -1.0, 3.0}, {0.0, 0.0, 0.0});
 

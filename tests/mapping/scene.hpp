@@ -4,14 +4,22 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "geometry/depth_noise.hpp"
 #include "geometry/polygon_clip.hpp"
 #include "mapping/geometric_map.hpp"
+#include "mapping/map_hash.hpp"
+#include "support/axes.hpp"
 #include "support/plane_renderer.hpp"
 
 namespace geomap::testing {
+
+/// @brief Of all that a map holds.
+inline std::string hash_of(const mapping::GeometricMap& map) {
+  return mapping::map_hash(map.features(), map.vetoes());
+}
 
 /// @brief Observes rectangles in closed form: what a perfect extraction would emit for a camera,
 /// with Gaussian errors of the plane as a whole. Needs no depth image; only what the camera faces

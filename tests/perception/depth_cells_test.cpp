@@ -6,15 +6,15 @@
 namespace geomap::perception {
 namespace {
 
-constexpr int kWidth = 37;  // no multiple of a cell
-constexpr int kHeight = 22;
-const geometry::CameraModel kCamera{kWidth, kHeight, 50.0, 45.0, 18.0, 10.0};
+constexpr int kImageWidth = 37;  // no multiple of a cell
+constexpr int kImageHeight = 22;
+const geometry::CameraModel kCamera{kImageWidth, kImageHeight, 50.0, 45.0, 18.0, 10.0};
 
 // The plane 1/z = 0.3 x - 0.2 y + 0.5, rounded to millimetres, with holes.
 geometry::DepthImage tilted_plane() {
-  geometry::DepthImage image{kWidth, kHeight, {}};
-  for (int v = 0; v < kHeight; ++v) {
-    for (int u = 0; u < kWidth; ++u) {
+  geometry::DepthImage image{kImageWidth, kImageHeight, {}};
+  for (int v = 0; v < kImageHeight; ++v) {
+    for (int u = 0; u < kImageWidth; ++u) {
       const Eigen::Vector3d ray = kCamera.ray(u, v);
       const double z = 1.0 / (0.3 * ray.x() - 0.2 * ray.y() + 0.5);
       const bool is_missing = (u * 7 + v * 13) % 11 == 0;
@@ -32,7 +32,7 @@ TEST(DepthCells, AWindowIsTheSumOfItsPixels) {
   ASSERT_EQ(cells.rows(), 6);
   InverseDepthSums expected;
   for (int v = 4; v < 20; ++v) {
-    for (int u = 8; u < kWidth; ++u) {
+    for (int u = 8; u < kImageWidth; ++u) {
       if (!geometry::DepthImage::is_reading(image.at(u, v))) continue;
       const Eigen::Vector3d ray = kCamera.ray(u, v);
       const double q = 1000.0 / image.at(u, v);

@@ -19,7 +19,7 @@ namespace {
 using testing::common_pixels;
 using testing::count_pixels;
 
-const geometry::CameraModel kCamera{640, 480, 481.2, 480.0, 319.5, 239.5};
+const geometry::CameraModel kIclCamera{640, 480, 481.2, 480.0, 319.5, 239.5};
 // Flat to the millimetre; cushions bulge by up to 8 mm.
 const std::set<int> kWalls = {4, 6, 7, 15};
 
@@ -30,7 +30,7 @@ std::vector<std::uint8_t> read_labels(const std::filesystem::path& path) {
   int width = 0, height = 0, largest = 0;
   file >> magic >> width >> height >> largest;
   file.get();
-  if (magic != "P5" || width != kCamera.width || height != kCamera.height) return {};
+  if (magic != "P5" || width != kIclCamera.width || height != kIclCamera.height) return {};
   std::vector<std::uint8_t> labels(static_cast<std::size_t>(width * height));
   file.read(reinterpret_cast<char*>(labels.data()), static_cast<std::streamsize>(labels.size()));
   return file ? labels : std::vector<std::uint8_t>{};
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> read_labels(const std::filesystem::path& path) {
 geometry::RgbdFrame read_frame(const std::filesystem::path& folder) {
   geometry::RgbdFrame frame;
   frame.depth = drivers::read_depth_png(folder / "depth.png", 5000);  // rounded to millimetres
-  frame.depth_camera = kCamera;
+  frame.depth_camera = kIclCamera;
   return frame;
 }
 
@@ -73,7 +73,7 @@ std::map<int, std::vector<bool>> outlines_by_label(
     const std::map<int, std::vector<bool>>& truth) {
   std::map<int, std::vector<bool>> joint;
   for (const auto& plane : planes) {
-    const std::vector<bool> outline = testing::outline_image(plane.surface, kCamera);
+    const std::vector<bool> outline = testing::outline_image(plane.surface, kIclCamera);
     for (const auto& [label, image] : truth) {
       if (2 * common_pixels(outline, image) < count_pixels(outline)) continue;
       auto& pixels = joint[label];

@@ -4,18 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <numbers>
 #include <stdexcept>
+#include "geometry/angles.hpp"
 
 namespace geomap::perception {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 Eigen::Isometry3d moved(double metres, double degrees) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translate(Eigen::Vector3d(1.0, -2.0, 2.0).normalized() * metres);
-  T.rotate(Eigen::AngleAxisd(degrees * kDegree, Eigen::Vector3d(2.0, 1.0, -1.0).normalized()));
+  T.rotate(
+      Eigen::AngleAxisd(geometry::radians(degrees), Eigen::Vector3d(2.0, 1.0, -1.0).normalized()));
   return T;
 }
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 #include <future>
-#include <numbers>
 #include <set>
 
+#include "geometry/angles.hpp"
 #include "geometry/polygon.hpp"
 #include "perception/outline_image.hpp"
 #include "support/plane_renderer.hpp"
@@ -20,8 +20,6 @@ using Eigen::Vector3d;
 using geometry::PlaneObservation;
 using testing::Rectangle;
 using testing::Rendering;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // What one extracted plane has to do with the rectangles of a scene.
 struct Match {
@@ -104,18 +102,18 @@ using Extractors = ::testing::Types<RansacExtractor, OrganizedExtractor>;
 TYPED_TEST_SUITE(PlaneExtractors, Extractors);
 
 TYPED_TEST(PlaneExtractors, ANoiseFreeRoomIsFoundExactly) {
-  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.0, 0.05 * kDegree, 0.0005,
-                          0.95);
+  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.0, geometry::radians(0.05),
+                          0.0005, 0.95);
 }
 
 TYPED_TEST(PlaneExtractors, WhiteNoiseOfFiveMillimetresLeavesEveryPlaneOfTheRoom) {
-  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.005, 0.1 * kDegree, 0.001,
-                          0.95);
+  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.005, geometry::radians(0.1),
+                          0.001, 0.95);
 }
 
 TYPED_TEST(PlaneExtractors, WhiteNoiseOfTwentyMillimetresLeavesEveryPlaneOfTheRoom) {
-  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.020, 0.3 * kDegree, 0.003,
-                          0.93);
+  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.020, geometry::radians(0.3),
+                          0.003, 0.93);
 }
 
 // A block before a wall, its top seen at a flat angle: where planes meet, single readings of such
@@ -128,13 +126,13 @@ TYPED_TEST(PlaneExtractors, EdgesOfABlockStaySharpUnderTwentyMillimetresOfNoise)
       {"floor", {-1.5, 0.0, 0.0}, Vector3d::UnitX(), Vector3d::UnitY(), 2.1, 2.2, {}, {}}};
   for (const double y : {-0.6, 0.0}) {
     expect_scene<TypeParam>(block, testing::look_at({-2.0, y, 1.4}, {0.3, 0.2 * y, 0.7}), 0.020,
-                            1.0 * kDegree, 0.006, 0.90);
+                            geometry::radians(1.0), 0.006, 0.90);
   }
 }
 
 TYPED_TEST(PlaneExtractors, AQuarterOfTheResolutionShowsTheSameRoom) {
-  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.0, 0.2 * kDegree, 0.001, 0.9,
-                          testing::kinect_camera(4));
+  expect_scene<TypeParam>(testing::small_room(), view_into_room(), 0.0, geometry::radians(0.2),
+                          0.001, 0.9, testing::kinect_camera(4));
 }
 
 TYPED_TEST(PlaneExtractors, ABookOnATableIsAPlaneOfItsOwn) {
@@ -145,7 +143,7 @@ TYPED_TEST(PlaneExtractors, ABookOnATableIsAPlaneOfItsOwn) {
   book.half_u = 0.15;
   book.half_v = 0.12;
   scene.push_back(book);
-  expect_scene<TypeParam>(scene, view_into_room(), 0.003, 0.5 * kDegree, 0.002, 0.9);
+  expect_scene<TypeParam>(scene, view_into_room(), 0.003, geometry::radians(0.5), 0.002, 0.9);
 }
 
 TYPED_TEST(PlaneExtractors, AWindowStaysOpen) {
@@ -239,7 +237,7 @@ TYPED_TEST(PlaneExtractors, QuantisationTerracesStayOneWall) {
   const auto planes = TypeParam().extract(rendering.frame, 1, std::nullopt).planes;
   ASSERT_EQ(planes.size(), 1u);
   const geometry::Plane truth = wall.plane_seen_from(Vector3d::Zero());
-  EXPECT_LT(geometry::angle_between(planes[0].surface.plane, truth), 0.3 * kDegree);
+  EXPECT_LT(geometry::angle_between(planes[0].surface.plane, truth), geometry::radians(0.3));
   EXPECT_NEAR(geometry::area(planes[0].surface.polygon), 2.8 * 2.0, 0.15);
 }
 
@@ -348,7 +346,7 @@ TYPED_TEST(PlaneExtractors, AnotherSeedFindsTheSameSurfaces) {
     ASSERT_EQ(others.size(), planes.size());
     for (std::size_t i = 0; i < planes.size(); ++i) {
       EXPECT_LT(geometry::angle_between(planes[i].surface.plane, others[i].surface.plane),
-                0.05 * kDegree);
+                geometry::radians(0.05));
     }
   }
 }

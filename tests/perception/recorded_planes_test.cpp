@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "drivers/image_file.hpp"
+#include "geometry/angles.hpp"
 #include "geometry/polygon.hpp"
 #include "perception/outline_image.hpp"
 #include "perception/ransac_extractor.hpp"
@@ -17,8 +17,6 @@
 
 namespace geomap::perception {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Reference {
   const char* name;
@@ -83,7 +81,8 @@ std::vector<std::vector<double>> angles_to_references(const std::vector<KitchenV
       for (std::size_t k = 0; k < references().size(); ++k) {
         const geometry::Plane& reference = references()[k].plane;
         const double angle = geometry::angle_between(plane, reference);
-        if (angle < 20.0 * kDegree && std::abs(reference.signed_distance(centroid)) < 0.03) {
+        if (angle < geometry::radians(20.0) &&
+            std::abs(reference.signed_distance(centroid)) < 0.03) {
           angles[k].push_back(angle);
         }
       }
@@ -108,9 +107,9 @@ TEST(RecordedPlanes, TheKitchensReferencePlanesAreSeenStraight) {
   const auto angles = angles_to_references(views);
   for (std::size_t k = 0; k < angles.size(); ++k) {
     ASSERT_GE(angles[k].size(), 5u) << references()[k].name;
-    EXPECT_LT(median(angles[k]), 2.0 * kDegree) << references()[k].name;
+    EXPECT_LT(median(angles[k]), geometry::radians(2.0)) << references()[k].name;
     // No slanted bands: nothing large lies across a surface.
-    EXPECT_LT(*std::max_element(angles[k].begin(), angles[k].end()), 8.0 * kDegree)
+    EXPECT_LT(*std::max_element(angles[k].begin(), angles[k].end()), geometry::radians(8.0))
         << references()[k].name;
   }
 }
@@ -198,7 +197,7 @@ void expect_visible(const RealSenseView& view, const geometry::CameraModel& came
     // Beyond 2 m this camera bends walls: 8 degrees were seen.
     const double tolerance = found->moments.centroid().z() > 2.0 ? 10.0 : 4.0;
     const double angle = geometry::angle_between(found->surface.plane, floor);
-    EXPECT_NEAR(angle / kDegree, 90.0, tolerance) << surface.name;
+    EXPECT_NEAR(geometry::degrees(angle), 90.0, tolerance) << surface.name;
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr std::int64_t kStart = 1'000'000'000;
+constexpr std::int64_t kDriveStart = 1'000'000'000;
 constexpr std::int64_t kFrame = 33'333;
 
 // A camera that goes along the room, 4 cm and about 1.5 degrees a frame.
@@ -48,13 +48,13 @@ class Drive {
   // @param odometry T_odom_camera, where there is any.
   Tracked see(int i, const geometry::RgbdFrame& frame,
               const std::optional<Isometry3d>& odometry = std::nullopt) {
-    const std::int64_t utime = kStart + i * kFrame;
+    const std::int64_t utime = kDriveStart + i * kFrame;
     if (odometry) tracker_.prior().add_pose(utime, *odometry * mount().inverse());
     tracker_.prior().note_input(utime);
     return tracker_.track(utime, [&] { return &frame; });
   }
   Tracked see(int i, const std::optional<Isometry3d>& odometry = std::nullopt) {
-    return see(i, frame_at(truth(i), kStart + i * kFrame), odometry);
+    return see(i, frame_at(truth(i), kDriveStart + i * kFrame), odometry);
   }
 
  private:
@@ -67,7 +67,7 @@ void expect_near(const Isometry3d& a, const Isometry3d& b, double metres, double
 }
 
 geometry::RgbdFrame blind_frame() {
-  geometry::RgbdFrame frame = frame_at(truth(0), kStart);
+  geometry::RgbdFrame frame = frame_at(truth(0), kDriveStart);
   std::fill(frame.depth.millimetres.begin(), frame.depth.millimetres.end(),
             geometry::DepthImage::kInvalid);
   return frame;
@@ -112,10 +112,10 @@ Isometry3d turned_left(double degrees) {
 // Sees the first wall, then what is `degrees` to its left.
 Tracked see_new_ground(double degrees, bool has_odometry) {
   Drive drive;
-  drive.see(0, two_walls_seen_from(turned_left(0.0), kStart), turned_left(0.0));
+  drive.see(0, two_walls_seen_from(turned_left(0.0), kDriveStart), turned_left(0.0));
   const std::int64_t next = has_odometry ? 1 : 10;  // a pose held for so long says nothing
   const Isometry3d T_next = turned_left(degrees);
-  return drive.see(static_cast<int>(next), two_walls_seen_from(T_next, kStart + next * kFrame),
+  return drive.see(static_cast<int>(next), two_walls_seen_from(T_next, kDriveStart + next * kFrame),
                    has_odometry ? std::optional(T_next) : std::nullopt);
 }
 
@@ -123,9 +123,9 @@ TEST(Tracker, FollowsOdometryIntoWhatTheMapDoesNotKnow) {
   TrackerConfig config;
   config.registration.unknown_turn_deg = 60.0;
   Drive drive(config);
-  drive.see(0, two_walls_seen_from(turned_left(0.0), kStart), turned_left(0.0));
+  drive.see(0, two_walls_seen_from(turned_left(0.0), kDriveStart), turned_left(0.0));
   const Isometry3d T_next = turned_left(40.0);
-  const Tracked tracked = drive.see(1, two_walls_seen_from(T_next, kStart + kFrame), T_next);
+  const Tracked tracked = drive.see(1, two_walls_seen_from(T_next, kDriveStart + kFrame), T_next);
   ASSERT_EQ(tracked.status, TrackStatus::kKeyframe) << tracked.reason;
   EXPECT_EQ(tracked.registration->reason, RegistrationReason::kUnknownView);
   expect_near(*tracked.T_world_camera, T_next, 1e-9, 1e-9);
@@ -194,7 +194,7 @@ TEST(Tracker, ARejectedFrameChangesNothingAndTheNextIsTried) {
   const std::size_t points = drive.tracker().point_map().size();
   const std::size_t keyframes = drive.tracker().point_map().keyframes();
   // A flat wall where the room should be.
-  geometry::RgbdFrame wall = frame_at(truth(12), kStart);
+  geometry::RgbdFrame wall = frame_at(truth(12), kDriveStart);
   std::fill(wall.depth.millimetres.begin(), wall.depth.millimetres.end(), std::uint16_t{3500});
   const Tracked rejected = drive.see(13, wall, truth(13));
   EXPECT_EQ(rejected.status, TrackStatus::kRejected);
@@ -220,7 +220,7 @@ TEST(Tracker, ABlindCameraOnOdometryIsNotLost) {
 TEST(Tracker, AViewThatLeavesADirectionOpenIsFollowedForAWhileWithoutEnteringTheMap) {
   TrackerConfig config;
   config.registration.lost_after = 5;
-  geometry::RgbdFrame wall = frame_at(truth(0), kStart);
+  geometry::RgbdFrame wall = frame_at(truth(0), kDriveStart);
   std::fill(wall.depth.millimetres.begin(), wall.depth.millimetres.end(), std::uint16_t{2000});
   Drive before_a_wall(config);
   ASSERT_EQ(before_a_wall.see(0, wall, truth(0)).status, TrackStatus::kKeyframe);
@@ -252,7 +252,7 @@ TEST(Tracker, ALostCameraIsFoundWhenItSeesTheMapAgain) {
   Tracked tracked;
   int tries = 0;
   do {
-    tracked = drive.see(30 + tries, frame_at(truth(2), kStart));
+    tracked = drive.see(30 + tries, frame_at(truth(2), kDriveStart));
   } while (drive.tracker().is_lost() && ++tries < 10);
   ASSERT_FALSE(drive.tracker().is_lost());
   EXPECT_EQ(drive.tracker().counts().relocalised, 1);
@@ -302,7 +302,7 @@ TEST(Tracker, SurvivesPosesAndImagesThatMakeNoSense) {
   EXPECT_EQ(drive.tracker().prior().pose_counts().invalid, 1);
   const Tracked empty = drive.see(12, geometry::RgbdFrame{}, truth(12));
   EXPECT_EQ(empty.reason, "invalid_image");
-  const Tracked none = drive.tracker().track(kStart + 13 * kFrame, [] { return nullptr; });
+  const Tracked none = drive.tracker().track(kDriveStart + 13 * kFrame, [] { return nullptr; });
   EXPECT_EQ(none.status, TrackStatus::kNoImage);
   Tracked good;
   for (int i = 14; i < 20; ++i) good = drive.see(i, truth(i));
@@ -313,7 +313,7 @@ TEST(Tracker, SurvivesPosesAndImagesThatMakeNoSense) {
 TEST(Tracker, APoseTenSecondsLateIsCountedAndSurvived) {
   Drive drive;
   for (int i = 0; i < 10; ++i) drive.see(i, truth(i));
-  drive.tracker().prior().add_pose(kStart - 10'000'000, truth(0) * mount().inverse());
+  drive.tracker().prior().add_pose(kDriveStart - 10'000'000, truth(0) * mount().inverse());
   for (int i = 10; i < 20; ++i) {
     const Tracked tracked = drive.see(i, truth(i));
     ASSERT_TRUE(tracked.T_world_camera) << tracked.reason;
@@ -335,8 +335,8 @@ TEST(Tracker, ARemovedKeyframeIsGoneFromTheMapAndFromTheSearch) {
   for (int i = 0; i < 12; ++i) drive.see(i, truth(i));
   const std::size_t keyframes = drive.tracker().point_map().keyframes();
   ASSERT_GE(keyframes, 3u);
-  EXPECT_TRUE(drive.tracker().remove(kStart));
-  EXPECT_FALSE(drive.tracker().remove(kStart));
+  EXPECT_TRUE(drive.tracker().remove(kDriveStart));
+  EXPECT_FALSE(drive.tracker().remove(kDriveStart));
   EXPECT_EQ(drive.tracker().point_map().keyframes(), keyframes - 1);
   EXPECT_TRUE(drive.see(13, truth(13)).T_world_camera);
 }
@@ -348,7 +348,7 @@ TEST(Tracker, ALostCameraWhoseMapWasTakenAwayBeginsAnew) {
   drive.see(0, truth(0));
   for (int i = 1; i < 6; ++i) drive.see(i, blind_frame());
   ASSERT_TRUE(drive.tracker().is_lost());
-  ASSERT_TRUE(drive.tracker().remove(kStart));
+  ASSERT_TRUE(drive.tracker().remove(kDriveStart));
   ASSERT_EQ(drive.tracker().point_map().keyframes(), 0u);
   drive.see(20, truth(20));
   EXPECT_FALSE(drive.tracker().is_lost());

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "support/axes.hpp"
 #include "viewer/event_handler.hpp"
 #include "viewer/fake_source.hpp"
 
@@ -15,14 +16,13 @@ namespace {
 using ::testing::ElementsAre;
 using testing::rectangle_feature;
 
-const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ(), kX = Eigen::Vector3d::UnitX(),
-                      kY = Eigen::Vector3d::UnitY();
+using geomap::testing::kX, geomap::testing::kY, geomap::testing::kZ;
 
 class Picking : public ::testing::Test {
  protected:
   Picking() {
-    put(rectangle_feature(1, {0, 0, 0}, kUp, kX, 6.0, 4.0));      // floor
-    put(rectangle_feature(2, {0, 0, 0.8}, kUp, kX, 1.0, 1.0));    // table
+    put(rectangle_feature(1, {0, 0, 0}, kZ, kX, 6.0, 4.0));       // floor
+    put(rectangle_feature(2, {0, 0, 0.8}, kZ, kX, 1.0, 1.0));     // table
     put(rectangle_feature(3, {2.9, 0, 1.0}, -kX, kY, 4.0, 2.0));  // wall
     cache_.update(map_);
     camera_.resize(800, 600);

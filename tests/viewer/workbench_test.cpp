@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/axes.hpp"
 #include "viewer/draw_tool.hpp"
 #include "viewer/fake_source.hpp"
 #include "viewer/move_tool.hpp"
@@ -26,13 +27,12 @@ using testing::rectangle_feature;
 using namespace std::chrono_literals;
 
 const FeatureId kFloor{1'000'001, 0}, kWall{1'000'002, 0};
-const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ(), kX = Eigen::Vector3d::UnitX(),
-                      kY = Eigen::Vector3d::UnitY();
+using geomap::testing::kX, geomap::testing::kY, geomap::testing::kZ;
 
 class Bench : public ::testing::Test {
  protected:
   Bench() : source_(new FakeSource), bench_(std::unique_ptr<MapSource>(source_)) {
-    source_->put(rectangle_feature(1, {0, 0, 0}, kUp, kX, 6.0, 4.0));
+    source_->put(rectangle_feature(1, {0, 0, 0}, kZ, kX, 6.0, 4.0));
     source_->put(rectangle_feature(2, {3.0, 0, 1.0}, -kX, kY, 4.0, 2.0));
     bench_.update(now_);
     camera_.resize(800, 600);
