@@ -10,6 +10,7 @@
 namespace geomap::perception {
 namespace {
 
+constexpr int kCellSide = DepthCells::kSide;
 constexpr std::size_t kEnoughPoints = 500;  // of a larger part, every second one, or third
 
 // Sums of one cell, of all readings or of those with one label.
@@ -97,8 +98,7 @@ class PartSummer {
 
   CellSums sums_of(const PlaneCell& cell) const {
     const Eigen::Vector2i& corner = cell.box.min();
-    if (cell.is_whole)
-      return sums_of_cell(cells_, corner.x() / DepthCells::kSide, corner.y() / DepthCells::kSide);
+    if (cell.is_whole) return sums_of_cell(cells_, corner.x() / kCellSide, corner.y() / kCellSide);
     const geometry::CameraModel& camera = frame_.depth_camera;
     CellSums sums;
     for (int v = cell.box.min().y(); v <= cell.box.max().y(); ++v) {
@@ -137,22 +137,20 @@ void collect_cell(const geometry::DepthImage& depth, int column, int row, double
                   PlanePixels& pixels) {
   if (const std::int16_t common = common_label(pixels.label, depth, column, row);
       common != kNoPlane) {
-    const Eigen::Vector2i corner(column * DepthCells::kSide, row * DepthCells::kSide);
+    const Eigen::Vector2i corner(column * kCellSide, row * kCellSide);
     pixels.cells[static_cast<std::size_t>(common)].push_back(
         {cell,
-         DepthCells::kSide * DepthCells::kSide,
+         kCellSide * kCellSide,
          true,
-         {corner, corner + Eigen::Vector2i::Constant(DepthCells::kSide - 1)}});
+         {corner, corner + Eigen::Vector2i::Constant(kCellSide - 1)}});
     return;
   }
-  std::array<PlaneCell*, DepthCells::kSide * DepthCells::kSide> known{};
-  std::array<std::int16_t, DepthCells::kSide * DepthCells::kSide> plane{};
+  std::array<PlaneCell*, kCellSide * kCellSide> known{};
+  std::array<std::int16_t, kCellSide * kCellSide> plane{};
   std::size_t count = 0;
-  for (int v = row * DepthCells::kSide; v < std::min((row + 1) * DepthCells::kSide, depth.height);
-       ++v) {
+  for (int v = row * kCellSide; v < std::min((row + 1) * kCellSide, depth.height); ++v) {
     const std::int16_t* line = pixels.label.data() + static_cast<std::ptrdiff_t>(v) * depth.width;
-    for (int u = column * DepthCells::kSide;
-         u < std::min((column + 1) * DepthCells::kSide, depth.width); ++u) {
+    for (int u = column * kCellSide; u < std::min((column + 1) * kCellSide, depth.width); ++u) {
       if (line[u] == kNoPlane) continue;
       std::size_t i = 0;
       while (i < count && plane[i] != line[u]) ++i;
