@@ -8,15 +8,16 @@
 
 #include "logs/simulated_sweep.hpp"
 #include "mapping/event_journal.hpp"
-#include "mapping/map_hash.hpp"
 #include "mapping/map_journal.hpp"
 #include "mapping/random_operator.hpp"
+#include "mapping/scene.hpp"
 
 namespace geomap::logs {
 namespace {
 
 using mapping::EditKind;
 using mapping::GeometricMap;
+using testing::hash_of;
 
 constexpr std::uint32_t kSequences = 200;
 constexpr int kEdits = 8;                  // of each
@@ -29,8 +30,6 @@ mapping::HistoryConfig close_copies() {
   history.copy_every = 3;
   return history;
 }
-
-std::string hash_of(const GeometricMap& map) { return map_hash(map.features(), map.vetoes()); }
 
 class EditProperty : public ::testing::Test {
  protected:

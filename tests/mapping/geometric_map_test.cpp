@@ -6,7 +6,6 @@
 
 #include <limits>
 
-#include "mapping/map_hash.hpp"
 #include "mapping/scene.hpp"
 
 namespace geomap::mapping {
